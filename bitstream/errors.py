@@ -31,12 +31,19 @@ class BsmError(Exception):
     """
 
     def __init__(
-        self, message: str, *, offset: int | None = None, frame: int | None = None, block: int | None = None
+        self,
+        message: str,
+        *,
+        offset: int | None = None,
+        frame: int | None = None,
+        block: int | None = None,
     ) -> None:
         self.message, self.offset, self.frame, self.block = message, offset, frame, block
         super().__init__(message)
 
-    def located(self, *, offset: int | None = None, frame: int | None = None, block: int | None = None) -> BsmError:
+    def located(
+        self, *, offset: int | None = None, frame: int | None = None, block: int | None = None
+    ) -> BsmError:
         """Add the places that are still unknown, and return the error."""
         # The place that was known where the error arose is closer than that of a caller.
         self.offset = offset if self.offset is None else self.offset
@@ -234,7 +241,8 @@ class BsmWarning(UserWarning):
 
 # Set on the class, so that pickles name it, too: a pickle made today is read by releases that have moved the module.
 for _error in (BsmError, BsmWarning, *BsmError.__subclasses__()):
-    _error.__module__ = __name__.partition(".")[0]  # tracebacks show them by the name that users catch them by
+    # Tracebacks show them by the name that users catch them by.
+    _error.__module__ = __name__.partition(".")[0]
 del _error
 
 Kind = TypeVar("Kind", bound=type)
@@ -248,7 +256,10 @@ def public(kind: Kind) -> Kind:
 
 def counted(**counts: int) -> str:
     """2 vertices, 1 face."""
-    return ", ".join(f"{n} {what if n != 1 else what[:-1].replace('vertice', 'vertex')}" for what, n in counts.items())
+    return ", ".join(
+        f"{n} {what if n != 1 else what[:-1].replace('vertice', 'vertex')}"
+        for what, n in counts.items()
+    )
 
 
 DISTRIBUTION = "bsm-codec"

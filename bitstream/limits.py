@@ -115,7 +115,11 @@ class Limits:
 
     def __repr__(self) -> str:
         # Twenty numbers would hide the one that differs.
-        own = [(f.name, getattr(self, f.name)) for f in fields(self) if getattr(self, f.name) != f.default]
+        own = [
+            (f.name, getattr(self, f.name))
+            for f in fields(self)
+            if getattr(self, f.name) != f.default
+        ]
         return f"Limits({', '.join(f'{name}={value!r}' for name, value in own)})"
 
     def __post_init__(self) -> None:
@@ -147,7 +151,13 @@ class Limits:
     @classmethod
     def wide(cls) -> Limits:
         """Limits for your own streams only: dictionaries as wide and as exact as options allow."""
-        return cls(work=1e12, work_per_vertex=1e8, memory=1 << 34, memory_per_vertex=1 << 16, sequence_bytes=1 << 36)
+        return cls(
+            work=1e12,
+            work_per_vertex=1e8,
+            memory=1 << 34,
+            memory_per_vertex=1 << 16,
+            sequence_bytes=1 << 36,
+        )
 
     def check(self, name: str, value: float) -> None:
         """Raise `LimitError` if `value` exceeds the limit called `name`."""
@@ -165,7 +175,10 @@ class Limits:
     def work_for(self, vertices: int, received: int) -> float:
         """Return the nanoseconds of work that a stream of these vertices and received bytes may take."""
         # A service needs a bound that no stream can raise by being long.
-        return min(self.work + self.work_per_vertex * vertices + self.work_per_byte * received, self.most_work)
+        return min(
+            self.work + self.work_per_vertex * vertices + self.work_per_byte * received,
+            self.most_work,
+        )
 
     def check_memory(self, value: float, vertices: int, received: int = 0) -> None:
         """Raise `LimitError` if a stream of these vertices and received bytes needs more memory."""
@@ -214,13 +227,27 @@ NAMED_LIMITS = {"default": Limits, "service": Limits.service, "wide": Limits.wid
 
 
 _REFUSALS: dict[int, type[BsmError]] = {
-    **{2: OptionError, 3: errors.FormatError, 4: errors.CorruptError, 5: errors.UnsupportedError, 6: LimitError},
+    **{
+        2: OptionError,
+        3: errors.FormatError,
+        4: errors.CorruptError,
+        5: errors.UnsupportedError,
+        6: LimitError,
+    },
     **{7: errors.NumericError, 10: errors.TargetError, 12: errors.TruncatedError},
 }
 
 
 def decoder_error(
-    status: int, message: str, offset: int, frame: int, block: int, limit: str, value: float, limits: Limits, state: Any
+    status: int,
+    message: str,
+    offset: int,
+    frame: int,
+    block: int,
+    limit: str,
+    value: float,
+    limits: Limits,
+    state: Any,
 ) -> Exception:
     """The error that the decoder in C reports, as an exception; places of -1 and an empty `limit` are not known."""
     # Everything else that C reports is memory that the system did not give.

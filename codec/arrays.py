@@ -10,8 +10,10 @@ from bsm.bitstream.errors import MeshError
 
 Matrix = npt.NDArray[np.float64]  # real numbers, of any shape
 Floats = Matrix  # the same, of a few axes at most: lengths, normals, weights
-Basis = npt.NDArray[np.float32]  # columns of a dictionary, and what its solver works on: single precision, shape (n, c)
-Positions = npt.NDArray[np.float64]  # coordinates of vertices, shape (n, 3), or of frames, shape (T, n, 3)
+# Columns of a dictionary, and what its solver works on: single precision, shape (n, c).
+Basis = npt.NDArray[np.float32]
+# Coordinates of vertices, shape (n, 3), or of frames, shape (T, n, 3).
+Positions = npt.NDArray[np.float64]
 Faces = npt.NDArray[np.int32]  # vertices of triangles, shape (m, 3)
 Indices = npt.NDArray[np.int32]  # numbers of vertices, rows, parts, or faces
 Order = npt.NDArray[np.int64]  # the same in the width that numpy's own index arrays have

@@ -17,7 +17,9 @@ Entry = TypeVar("Entry")
 def named(kind: str, choices: Mapping[str, Choice], name: str) -> Choice:
     """The choice called `name`."""
     if not isinstance(name, str) or name not in choices:
-        raise OptionError(f"unknown {kind} {name!r}{suggestion(str(name), choices)} ({', '.join(choices)})")
+        raise OptionError(
+            f"unknown {kind} {name!r}{suggestion(str(name), choices)} ({', '.join(choices)})"
+        )
     return choices[name]
 
 
@@ -33,7 +35,9 @@ def suggestion(word: str, known: Iterable[str], *, likeness: float = LIKENESS) -
     begun = [name for name in names if name.startswith(word)]
     import difflib  # for errors only
 
-    found = begun if len(begun) == 1 else difflib.get_close_matches(word, names, n=1, cutoff=likeness)
+    found = (
+        begun if len(begun) == 1 else difflib.get_close_matches(word, names, n=1, cutoff=likeness)
+    )
     # "coefs" is meant for coefficients, although most of its letters are missing.
     alike = [name for name in names if name.startswith(word[:_BEGINNING])]
     if not found and len(alike) == 1 and len(word) >= _BEGINNING and likeness == LIKENESS:
@@ -56,7 +60,9 @@ def check_options(
         if name in choices and value not in choices[name]:
             raise OptionError(f"{name} must be one of {', '.join(choices[name])}, not {value!r}")
         if name in ranges and not ranges[name][0] <= value <= ranges[name][1]:
-            raise OptionError(f"{name} = {value!r:.20} is outside {ranges[name][0]:.7g}..{ranges[name][1]:.7g}")
+            raise OptionError(
+                f"{name} = {value!r:.20} is outside {ranges[name][0]:.7g}..{ranges[name][1]:.7g}"
+            )
 
 
 @cache
@@ -71,7 +77,13 @@ def checked(name: str, value: Any, hint: Any) -> Any:
     for kind in kinds:
         with suppress(TypeError, OverflowError):
             return _as(kind, value)
-    words = {float: "a number", int: "a whole number", str: "a string", bool: "True or False", types.NoneType: "None"}
+    words = {
+        float: "a number",
+        int: "a whole number",
+        str: "a string",
+        bool: "True or False",
+        types.NoneType: "None",
+    }
     expected = " or ".join(words.get(kind, getattr(kind, "__name__", str(kind))) for kind in kinds)
     raise ArgumentError(f"{name} must be {expected}, not {value!r}")
 

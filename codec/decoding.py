@@ -12,7 +12,14 @@ from bsm._core import Decoder as Engine
 from bsm._core import DecoderState
 from bsm.bitstream.container.header import Header, MetadataValue, values_of
 from bsm.bitstream.container.wire import PREAMBLE_BYTES
-from bsm.bitstream.errors import ArgumentError, BsmError, FormatError, OptionError, UnsupportedError, public
+from bsm.bitstream.errors import (
+    ArgumentError,
+    BsmError,
+    FormatError,
+    OptionError,
+    UnsupportedError,
+    public,
+)
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits, as_limits
 from bsm.codec import events
 from bsm.codec.arrays import Faces, sealed
@@ -39,7 +46,21 @@ Given = ParamSpec("Given")
 Result = TypeVar("Result")
 
 # Types of events, in the order of bsmdec.h.
-NEED, HEADER, METADATA, CONNECTIVITY, BLOCK, REFINEMENT, ATTRIBUTE, FRAME, LOSS, END, OVER, _ERROR, VALUES = range(13)
+(
+    NEED,
+    HEADER,
+    METADATA,
+    CONNECTIVITY,
+    BLOCK,
+    REFINEMENT,
+    ATTRIBUTE,
+    FRAME,
+    LOSS,
+    END,
+    OVER,
+    _ERROR,
+    VALUES,
+) = range(13)
 
 
 def mask_of(*types: int) -> int:
@@ -50,7 +71,9 @@ ALWAYS_TAKEN = mask_of(HEADER, METADATA)
 RESULT_ONLY = mask_of(END)
 
 
-def _in_turn(method: Callable[Concatenate[Self, Given], Result]) -> Callable[Concatenate[Self, Given], Result]:
+def _in_turn(
+    method: Callable[Concatenate[Self, Given], Result],
+) -> Callable[Concatenate[Self, Given], Result]:
     """Let threads that share a decoder take turns, so that an event and its arrays go to one of them."""
 
     @wraps(method)
@@ -70,9 +93,17 @@ class StreamDecoder:
     _misfit: ClassVar[tuple[type[FormatError | UnsupportedError], str]]
 
     def __init__(
-        self, limits: Limits | str, threads: int | None, *, tolerant: bool = False, start: int = 0, layers: int = 0
+        self,
+        limits: Limits | str,
+        threads: int | None,
+        *,
+        tolerant: bool = False,
+        start: int = 0,
+        layers: int = 0,
     ) -> None:
-        self._engine: Engine | None = Engine(as_limits(limits), threads_of(threads), bool(tolerant), start, layers)
+        self._engine: Engine | None = Engine(
+            as_limits(limits), threads_of(threads), bool(tolerant), start, layers
+        )
         self._turn = RLock()
         self._tolerant = tolerant
         self._finished = False
@@ -116,7 +147,9 @@ class StreamDecoder:
         try:
             view = memoryview(given)
         except (TypeError, ValueError):
-            raise ArgumentError(f"bytes of a stream are expected, not {type(data).__name__}") from None
+            raise ArgumentError(
+                f"bytes of a stream are expected, not {type(data).__name__}"
+            ) from None
         if self._finished:
             raise OptionError("bytes were given to a decoder after receive_eof")
         with view:
@@ -174,7 +207,9 @@ class StreamDecoder:
                 name, domain, semantic, indices, rows, values = engine.values(index)
                 if not len(rows):  # computed from positions
                     return None
-                return events.AttributeEvent(name, DOMAINS[domain], SEMANTICS[semantic], indices, rows, values)
+                return events.AttributeEvent(
+                    name, DOMAINS[domain], SEMANTICS[semantic], indices, rows, values
+                )
             case 9:
                 return events.EndEvent()
             case 10:
@@ -252,7 +287,10 @@ class Decoder(StreamDecoder):
 
     _wanted = mask_of(CONNECTIVITY, BLOCK, REFINEMENT, ATTRIBUTE, VALUES, LOSS, END)
     _of_sequences = False
-    _misfit = UnsupportedError, "this is a sequence, and not a mesh (in Python, bsm.decode_sequence)"
+    _misfit = (
+        UnsupportedError,
+        "this is a sequence, and not a mesh (in Python, bsm.decode_sequence)",
+    )
 
     def __init__(
         self,
@@ -293,7 +331,10 @@ class Decoder(StreamDecoder):
         assert self._sizes is not None
         vertices, faces = self._sizes
         # Sealed, so that the mesh has these arrays and no copies.
-        positions, triangles = sealed(self._open.positions(vertices)), sealed(self._open.faces(faces))
+        positions, triangles = (
+            sealed(self._open.positions(vertices)),
+            sealed(self._open.faces(faces)),
+        )
         return TriangleMesh(positions, triangles, self.attributes, self.metadata)
 
     finish = decode_rest  # its name in earlier releases
@@ -310,7 +351,11 @@ class Decoder(StreamDecoder):
             return events.LossEvent(None if index < 0 else index, self._loss())
         if kind == END:
             self._sizes = vertices, faces
-            return events.EndEvent(events.Losses(*self._open.losses())) if self._tolerant else events.EndEvent()
+            return (
+                events.EndEvent(events.Losses(*self._open.losses()))
+                if self._tolerant
+                else events.EndEvent()
+            )
         return super()._event(kind, index, count, vertices, faces)
 
 
@@ -365,9 +410,13 @@ class SequenceDecoder(StreamDecoder):
 
     def _event(self, kind: int, index: int, count: int, vertices: int, faces: int) -> Event | None:
         if kind == LOSS:
-            return events.LossEvent(None, self._loss(), range(index, index + count) if index >= 0 else range(0))
+            return events.LossEvent(
+                None, self._loss(), range(index, index + count) if index >= 0 else range(0)
+            )
         if kind == FRAME:
-            return events.FrameEvent(index, self._open.positions(vertices), self._faces, tuple(self._in_frame()))
+            return events.FrameEvent(
+                index, self._open.positions(vertices), self._faces, tuple(self._in_frame())
+            )
         if kind == HEADER:
             self._known.clear()
         if kind == ATTRIBUTE:
@@ -376,7 +425,8 @@ class SequenceDecoder(StreamDecoder):
         if isinstance(event, events.ConnectivityEvent):
             self._faces = event.faces
             # A run may have the mesh of an earlier one, and then no attribute arrives again.
-            for number in range(self._open.attribute_count()):  # those of an earlier run of this mesh
+            # Those of an earlier run of this mesh.
+            for number in range(self._open.attribute_count()):
                 self._know(number)
         return event
 
@@ -393,7 +443,9 @@ class SequenceDecoder(StreamDecoder):
             yield attribute if found is None else found[0]
 
 
-def decode(data: bytes, limits: Limits | str = DEFAULT_LIMITS, threads: int | None = None) -> TriangleMesh:
+def decode(
+    data: bytes, limits: Limits | str = DEFAULT_LIMITS, threads: int | None = None
+) -> TriangleMesh:
     """Decode a complete stream."""
     with Decoder(limits, threads) as decoder:
         decoder.receive_data(data)

@@ -69,7 +69,9 @@ class Changes:
     final: Mask
 
     def __repr__(self) -> str:
-        return f"{type(self).__name__}({len(self.vertices)} vertices, {int(self.final.sum())} final)"
+        return (
+            f"{type(self).__name__}({len(self.vertices)} vertices, {int(self.final.sum())} final)"
+        )
 
 
 @public

@@ -35,7 +35,9 @@ def threads_of(wanted: int | None) -> int:
     return available_threads() if wanted is None else checked_whole("threads", wanted, 1)
 
 
-def ordered_map(work: Callable[[Item], Result], items: Iterable[Item], threads: int | None) -> Iterator[Result]:
+def ordered_map(
+    work: Callable[[Item], Result], items: Iterable[Item], threads: int | None
+) -> Iterator[Result]:
     """`map(work, items)` on `threads` threads (None: one per core)."""
     count, rest = threads_of(threads), iter(items)
     # A thread for a single item would only add its start.
@@ -88,7 +90,10 @@ class _Blas:
 def _blas() -> _Blas | None:
     """Find numpy's OpenBLAS; None: numpy has another library."""
     package = Path(np.__file__).parent
-    for path in [*package.parent.glob("numpy.libs/*openblas*"), *package.glob(".dylibs/*openblas*")]:
+    for path in [
+        *package.parent.glob("numpy.libs/*openblas*"),
+        *package.glob(".dylibs/*openblas*"),
+    ]:
         with suppress(OSError):
             library = ctypes.CDLL(str(path))  # which is loaded already
             for prefix in ("scipy_openblas", "openblas"):
@@ -137,9 +142,12 @@ class Crew:
         helping: list[Future[None]] = []
         try:
             # The caller's thread works, too, so that a crew of one starts no thread at all.
-            helping.extend(self._pool.submit(help_out) for _ in range(min(self._helpers, len(given) - 1)))
+            helping.extend(
+                self._pool.submit(help_out) for _ in range(min(self._helpers, len(given) - 1))
+            )
             help_out()
-        except KeyboardInterrupt:  # a thread whose start it interrupts would wait for work when the program ends
+        # A thread whose start it interrupts would wait for work when the program ends.
+        except KeyboardInterrupt:
             if pool := self.__dict__.pop("_pool", None):
                 pool.shutdown(wait=False)
             raise

@@ -18,25 +18,40 @@ import bsm
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("source", help="URL with * for any name")
     parser.add_argument("target", help="URL of a folder, with a slash at its end")
-    parser.add_argument("--scheduler", help="address of a Dask scheduler (default: threads of this process)")
+    parser.add_argument(
+        "--scheduler", help="address of a Dask scheduler (default: threads of this process)"
+    )
     parser.add_argument("--preset", default="balanced")
     parser.add_argument("--report", help="JSON file of what came of each; --resume goes on from it")
     parser.add_argument("--resume", action="store_true")
     args = parser.parse_args()
     # Threads share what memory:// holds; processes would not.
-    here = None if args.scheduler else LocalCluster(n_workers=2, processes=False, dashboard_address=":0")
+    here = (
+        None
+        if args.scheduler
+        else LocalCluster(n_workers=2, processes=False, dashboard_address=":0")
+    )
     with here or nullcontext():
         address = args.scheduler or here.scheduler_address
         done = bsm.encode_many(
-            [args.source], args.target, dask=address, report=args.report, resume=args.resume, preset=args.preset
+            [args.source],
+            args.target,
+            dask=address,
+            report=args.report,
+            resume=args.resume,
+            preset=args.preset,
         )
     good = [facts for facts in done if "error" not in facts]
     for facts in done:
         print(facts.get("output", facts["input"]), facts.get("error", facts.get("output_bytes")))
-    print(f"{len(good)} of {len(done)} meshes, {sum(facts['output_bytes'] for facts in good)} bytes")
+    print(
+        f"{len(good)} of {len(done)} meshes, {sum(facts['output_bytes'] for facts in good)} bytes"
+    )
     raise SystemExit(0 if len(good) == len(done) else 1)
 
 

@@ -18,7 +18,9 @@ FORMATS = (".ply", ".obj", ".stl", ".off")
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("scans", type=Path, help="folder of meshes; folders in it are mirrored")
     parser.add_argument("out", type=Path, help="folder for streams, and for report.csv")
     parser.add_argument("--preset", default="fine", help="how well meshes are kept (default: fine)")
@@ -41,7 +43,13 @@ def main() -> None:
 
 def row(path: Path, target: Path, preset: str) -> dict[str, object]:
     """What came of one scan."""
-    made: dict[str, object] = {"file": path.name, "bytes": "", "stream": "", "moved": "", "status": ""}
+    made: dict[str, object] = {
+        "file": path.name,
+        "bytes": "",
+        "stream": "",
+        "moved": "",
+        "status": "",
+    }
     try:
         made["bytes"] = path.stat().st_size
         if target.exists():

@@ -71,7 +71,11 @@ def answer_to(path: str, data: bytes, preset: str) -> Answer:
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always", bsm.BsmWarning)
             body = WORK[path](data, preset)
-        notes = [str(warning.message) for warning in caught if issubclass(warning.category, bsm.BsmWarning)]
+        notes = [
+            str(warning.message)
+            for warning in caught
+            if issubclass(warning.category, bsm.BsmWarning)
+        ]
         return 200, body, tuple(map(without_names, notes[:MOST_WARNINGS]))
     except bsm.BsmError as error:
         status = 413 if isinstance(error, bsm.LimitError) else 422
@@ -87,7 +91,9 @@ def without_names(sentence: str) -> str:
 
 def file_in_form(content_type: str, body: bytes) -> bytes:
     """Return the first file of a form, which `curl -F file=@bunny.ply` sends. Other bodies are returned whole."""
-    boundary = re.fullmatch(r'multipart/form-data\s*;.*?boundary="?([\w\'()+,./:=? -]{1,70}?)"?\s*', content_type)
+    boundary = re.fullmatch(
+        r'multipart/form-data\s*;.*?boundary="?([\w\'()+,./:=? -]{1,70}?)"?\s*', content_type
+    )
     if boundary is None:
         return body
     line = b"--" + boundary[1].encode()
@@ -112,7 +118,8 @@ def find_all(body: bytes, line: bytes) -> Iterator[int]:
 def work_for(pipe: Connection) -> None:
     """What a process does: one request after the other."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
-    bsm.encode(([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)]), threads=1)  # loads what it needs before it is needed
+    # Loads what it needs before it is needed.
+    bsm.encode(([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)]), threads=1)
     pipe.send("ready")
     with suppress(EOFError):
         while True:
@@ -173,7 +180,8 @@ class Server(ThreadingHTTPServer):
         self.connections = BoundedSemaphore(MOST_CONNECTIONS)
         self.busy = BoundedSemaphore(jobs)
         self.workers: Queue[Worker] = Queue()
-        self.all_workers = [Worker() for _ in range(jobs + 1)]  # one is ready while another one begins
+        # One is ready while another one begins.
+        self.all_workers = [Worker() for _ in range(jobs + 1)]
         for worker in self.all_workers:
             worker.wait()
             self.workers.put(worker)
@@ -189,7 +197,9 @@ class Server(ThreadingHTTPServer):
                 request.sendall(b"HTTP/1.0 503 Service Unavailable\r\n\r\ntoo many connections\n")
             self.shutdown_request(request)
 
-    def process_request_thread(self, request: socket.socket, client_address: tuple[str, int]) -> None:
+    def process_request_thread(
+        self, request: socket.socket, client_address: tuple[str, int]
+    ) -> None:
         """Serve one connection."""
         try:
             super().process_request_thread(request, client_address)
@@ -219,7 +229,8 @@ class Handler(BaseHTTPRequestHandler):
 
     def setup(self) -> None:
         """From now on there is so much time for head and body together, however slowly they come."""
-        self.timeout = 2.0 * self.server.seconds  # more than for reading, so that a late upload gets its answer
+        # More than for reading, so that a late upload gets its answer.
+        self.timeout = 2.0 * self.server.seconds
         super().setup()
         self.patience = Timer(self.server.seconds, self.stop_reading)
         self.patience.daemon = True
@@ -282,7 +293,9 @@ class Handler(BaseHTTPRequestHandler):
         """Send a stream or mesh, or a sentence, and warnings."""
         content = body if isinstance(body, bytes) else f"{body}\n".encode()
         self.send_response(status)
-        self.send_header("Content-Type", "application/octet-stream" if isinstance(body, bytes) else "text/plain")
+        self.send_header(
+            "Content-Type", "application/octet-stream" if isinstance(body, bytes) else "text/plain"
+        )
         self.send_header("X-Content-Type-Options", "nosniff")
         self.send_header("Content-Length", str(len(content)))
         for note in notes:
@@ -294,11 +307,15 @@ class Handler(BaseHTTPRequestHandler):
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("--host", default="127.0.0.1")
     parser.add_argument("--port", type=int, default=8000, help="0: any that is free")
     parser.add_argument("--jobs", type=int, default=2, help="requests that are worked on at a time")
-    parser.add_argument("--seconds", type=float, default=60.0, help="for an upload to come, and for the work on it")
+    parser.add_argument(
+        "--seconds", type=float, default=60.0, help="for an upload to come, and for the work on it"
+    )
     args = parser.parse_args()
     logging.basicConfig(level=logging.INFO, format="%(asctime)s %(name)s %(levelname)s %(message)s")
     signal.signal(signal.SIGTERM, lambda *_: sys.exit())

@@ -12,7 +12,9 @@ LARGEST = {"reach": 8, "rounds": 64, "halvings": 40}
 def check_base(header, stored):  # M 18.1
     require(len(header["base"]) == 4, "a base is not four numbers")
     cells, *others = header["base"]
-    require(all(value <= most for value, most in zip(others, LARGEST.values())), "a base out of range")
+    require(
+        all(value <= most for value, most in zip(others, LARGEST.values())), "a base out of range"
+    )
     require(cells <= header["vertices"], "more cells than vertices")
     require(header["refinement"], "a base without refinement")
     require(not {"paper", "onorm"} & stored, "a base in the paper's mode")

@@ -37,7 +37,14 @@ from reference_integers import (
 )
 
 EXIT_CODES = dict(zip(ERRORS, (3, 4, 5, 6, 7, 12)))
-LIMITS = {"vertices": 1 << 24, "faces": 1 << 25, "blocks": 1 << 17, "block_size": 8192, "coefficients": 4096}  # M 14.1
+# M 14.1.
+LIMITS = {
+    "vertices": 1 << 24,
+    "faces": 1 << 25,
+    "blocks": 1 << 17,
+    "block_size": 8192,
+    "coefficients": 4096,
+}
 MOST_FRAME_BYTES, MOST_METADATA_BYTES = 1 << 28, 1 << 23
 
 
@@ -76,14 +83,21 @@ def varints(data, count):  # `count` of them at the beginning of a payload, and 
     return *values, data[at:]
 
 
-def canonical_map(payload):  # F 1.5: one map has one encoding, so decode, check the types, encode again and compare
+# F 1.5: one map has one encoding, so decode, check the types, encode again and compare.
+def canonical_map(payload):
     try:
         pairs = msgpack.unpackb(payload, raw=False, strict_map_key=False, object_pairs_hook=tuple)
     except Exception as error:  # msgpack raises many kinds
         raise CorruptError(f"not a msgpack map: {error}") from None
     require(type(pairs) is tuple and len(pairs) <= 256, "not a map of at most 256 entries")
-    require(sum(len(value) for _, value in pairs if type(value) is list) <= 256, "arrays of more than 256 entries")
-    require({type(key) for key, _ in pairs} in (set(), {int}, {str}), "keys must be all integers or all strings")
+    require(
+        sum(len(value) for _, value in pairs if type(value) is list) <= 256,
+        "arrays of more than 256 entries",
+    )
+    require(
+        {type(key) for key, _ in pairs} in (set(), {int}, {str}),
+        "keys must be all integers or all strings",
+    )
     keys = [key.encode() if type(key) is str else key for key, _ in pairs]
     require(keys == sorted(set(keys)), "keys must ascend")
     require(all(type(key) is bytes or key >= 0 for key in keys), "an integer key is negative")
@@ -96,7 +110,9 @@ def canonical_map(payload):  # F 1.5: one map has one encoding, so decode, check
 
 def packed_value(value, nested):
     if type(value) is list and not nested:
-        return msgpack.Packer().pack_array_header(len(value)) + b"".join(packed_value(v, True) for v in value)
+        return msgpack.Packer().pack_array_header(len(value)) + b"".join(
+            packed_value(v, True) for v in value
+        )
     require(type(value) in (int, float, str, bytes), "a map may not hold a value of this type")
     if type(value) is not float:
         return msgpack.packb(value)
@@ -107,14 +123,36 @@ def packed_value(value, nested):
 
 # ---------------------------------------------------------------- F 2 to F 5: frames
 
-HEADER, METADATA, CONNECTIVITY, PARTITION, ORDER, BLOCK, GOP, GRID, REFINEMENT, END = 1, 2, 3, 4, 5, 6, 7, 12, 13, 15
+HEADER, METADATA, CONNECTIVITY, PARTITION, ORDER, BLOCK, GOP, GRID, REFINEMENT, END = (
+    1,
+    2,
+    3,
+    4,
+    5,
+    6,
+    7,
+    12,
+    13,
+    15,
+)
 ATTRIBUTE, VALUES = 14, 0
-PLACES = [HEADER], [CONNECTIVITY], [PARTITION], [ORDER], [ATTRIBUTE], [BLOCK, GRID], [REFINEMENT], [VALUES], [END]
+PLACES = (
+    [HEADER],
+    [CONNECTIVITY],
+    [PARTITION],
+    [ORDER],
+    [ATTRIBUTE],
+    [BLOCK, GRID],
+    [REFINEMENT],
+    [VALUES],
+    [END],
+)
 RANKS = {kind: rank for rank, kinds in enumerate(PLACES) for kind in kinds}  # F 3.8
 SKIPPED = {ORDER: "order", ATTRIBUTE: "attributes", VALUES: "attributes"}
 
 
-def frames_of(stream):  # F 2 and F 3: yields (type, payload, offset of the tag) of every frame; skippable ones too
+# F 2 and F 3: yields (type, payload, offset of the tag) of every frame; skippable ones too.
+def frames_of(stream):
     magic = b"\x89BSM"
     if not magic.startswith(stream[:4]):
         raise FormatError("not a BSM stream")  # F 2.1
@@ -133,7 +171,11 @@ def frames_of(stream):  # F 2 and F 3: yields (type, payload, offset of the tag)
             raise TruncatedError("the stream ends inside a frame")
         body = stream[offset:end]
         crc = binascii.crc_hqx(body, 0) if size == 2 else zlib.crc32(body)
-        require(crc == int.from_bytes(stream[end : end + size], "little"), "checksum of a frame is wrong")  # F 3.3
+        # F 3.3.
+        require(
+            crc == int.from_bytes(stream[end : end + size], "little"),
+            "checksum of a frame is wrong",
+        )
         yield kind, stream[start:end], offset
         if kind == HEADER and (entries := brief_entries(stream[start:end])):  # F 11.1
             yield from ((METADATA, notes, offset) for _, notes in entries[1:])
@@ -161,7 +203,8 @@ FIELDS = {
     "lattice": (14, int, 1, COUNT, [], 0, 2),
     "corner": (15, int, -(2**31), COUNT, [], 0, 3),
     "turn": (24, float, -1.0, 1.0, [0.0, 0.0, 0.0], 3, 3),
-    "paper": (19, float, 0.0, 2.0**30, [0.0, 0.0, 0.0, 3.0, 1.0, 2.0, 2.0**-7, 1.0], 8, 8),  # F 10.1
+    # F 10.1.
+    "paper": (19, float, 0.0, 2.0**30, [0.0, 0.0, 0.0, 3.0, 1.0, 2.0, 2.0**-7, 1.0], 8, 8),
     "onorm": (21, int, 1, 64, 0),
     "base": (27, int, 1, COUNT, [], 0, 4),
     "swift": (28, int, 1, 2, 0),
@@ -177,7 +220,8 @@ def brief_entries(payload):  # F 11.1: the map of a brief header, nothing of ano
     return entries if [key for key, _ in entries[1:]] in ([], [26]) else ()
 
 
-def brief_fields(entries):  # F 11.2: fields of the header, the payload of CONNECTIVITY, and positions
+# F 11.2: fields of the header, the payload of CONNECTIVITY, and positions.
+def brief_fields(entries):
     key, value = entries[0]
     require(type(value) is bytes and type(entries[-1][1]) is bytes, "brief has a wrong type")
     n, m, *grid, congruence, rest = varints(value, 6)
@@ -186,10 +230,20 @@ def brief_fields(entries):  # F 11.2: fields of the header, the payload of CONNE
     scale, x, y, z, *turn = np.frombuffer(rest[:length], ">f4").astype(float).tolist()
     size, rest = varints(rest[length:], 1)
     require(size <= len(rest), "the faces end early")
-    given = {"vertices": n, "faces": m, "grid": grid, "scale": scale, "center": [x, y, z], "turn": turn or [0.0] * 3}
+    given = {
+        "vertices": n,
+        "faces": m,
+        "grid": grid,
+        "scale": scale,
+        "center": [x, y, z],
+        "turn": turn or [0.0] * 3,
+    }
     for name, field in given.items():
         items = field if type(field) is list else [field]
-        require(all(FIELDS[name][2] <= item <= FIELDS[name][3] for item in items), f"{name} is out of range")
+        require(
+            all(FIELDS[name][2] <= item <= FIELDS[name][3] for item in items),
+            f"{name} is out of range",
+        )
     require(congruence <= 68, "congruence is out of range")
     if congruence:
         raise UnsupportedError(EXTENSIONS[22])
@@ -201,7 +255,11 @@ def parse_header(payload):
     if entries := brief_entries(payload):
         h = {name: field[4] for name, field in FIELDS.items()} | brief_fields(entries)[0]
         return agreeing(h, set())
-    h, entries, names = {}, canonical_map(payload), {field[0]: name for name, field in FIELDS.items()}
+    h, entries, names = (
+        {},
+        canonical_map(payload),
+        {field[0]: name for name, field in FIELDS.items()},
+    )
     require(all(type(key) is int for key, _ in entries), "a key is not an integer")  # F 4.1
     for key, _ in entries:  # F 4.2, F 4.8
         if key not in names:
@@ -214,9 +272,13 @@ def parse_header(payload):
         items = value if lengths and type(value) is list else [value]
         require(bool(lengths) == (type(value) is list), f"{names[key]} has a wrong type")  # F 4.4
         require(all(type(item) is kind for item in items), f"{names[key]} has a wrong type")
-        require(not lengths or lengths[0] <= len(items) <= lengths[1], f"{names[key]} has a wrong length")
+        require(
+            not lengths or lengths[0] <= len(items) <= lengths[1],
+            f"{names[key]} has a wrong length",
+        )
         require(value != default, f"{names[key]} is stored although it has its default")  # F 4.3
-        require(all(low <= item <= high for item in items), f"{names[key]} is out of range")  # F 4.5
+        # F 4.5.
+        require(all(low <= item <= high for item in items), f"{names[key]} is out of range")
         h[names[key]] = value
     stored = set(h)
     require({"vertices", "faces"} <= stored, "vertices or faces are missing")
@@ -226,13 +288,32 @@ def parse_header(payload):
 def agreeing(h, stored):
     require(h["vertices"] <= 3 * h["faces"], "more vertices than corners")  # F 4.6
     if h["grid"]:
-        beside = {"vertices", "faces", "center", "scale", "grid", "lattice", "attributes", "corner", "turn", "swift"}
+        beside = {
+            "vertices",
+            "faces",
+            "center",
+            "scale",
+            "grid",
+            "lattice",
+            "attributes",
+            "corner",
+            "turn",
+            "swift",
+        }
         require(stored <= beside and len(h["grid"]) == 3, "a grid, and something else")
-        require(len(h["lattice"]) in (0, 2) and len(h["corner"]) in (0, 3), "a lattice or a corner of another length")
+        require(
+            len(h["lattice"]) in (0, 2) and len(h["corner"]) in (0, 3),
+            "a lattice or a corner of another length",
+        )
         require(not (h["corner"] and "center" in stored), "a corner and a center")
-        require(not h["lattice"] or max(h["grid"]) <= h["lattice"][1] <= h["lattice"][0], "a lattice that is none")
+        require(
+            not h["lattice"] or max(h["grid"]) <= h["lattice"][1] <= h["lattice"][0],
+            "a lattice that is none",
+        )
     else:
-        require(not h["lattice"] and not h["corner"] and "turn" not in stored, "of a grid, without one")
+        require(
+            not h["lattice"] and not h["corner"] and "turn" not in stored, "of a grid, without one"
+        )
         if {"paper", "onorm"} & stored:
             extension_paper().settings_of(h)
         require(h["blocks"] and h["coefficients"], "no blocks, and no grid")
@@ -240,12 +321,20 @@ def agreeing(h, stored):
             extension_base().check_base(h, stored)
         size = h["base"][0] if h["base"] else h["vertices"]  # M 18.1
         require(h["blocks"] <= size, "more blocks than vertices")
-        require(h["coefficients"] <= h["block_size"] <= size, "too large blocks, or too many coefficients")
-        require(size <= h["blocks"] * h["block_size"] <= 16 * size + 65536, "blocks of a wrong size")
+        require(
+            h["coefficients"] <= h["block_size"] <= size,
+            "too large blocks, or too many coefficients",
+        )
+        require(
+            size <= h["blocks"] * h["block_size"] <= 16 * size + 65536, "blocks of a wrong size"
+        )
     require(not h["swift"] or h["attributes"], "swift attributes, and none")
     if h["refinement"]:
         require(len(h["refinement"]) == 2, "a refinement is not two numbers")
-        require(2.0**-40 <= h["refinement"][0] <= 1 and h["refinement"][1] >= 1 / 16, "a refinement out of range")
+        require(
+            2.0**-40 <= h["refinement"][0] <= 1 and h["refinement"][1] >= 1 / 16,
+            "a refinement out of range",
+        )
     for name, most in LIMITS.items():  # F 4.7
         require_limit(h[name], most, name)
     return h
@@ -259,7 +348,12 @@ def read_frames(stream, packets):
             require(kind == HEADER, "the first frame must be HEADER")  # F 3.7
         if 8 <= kind <= 11:
             continue  # F 3.5
-        wants = {GRID: "grid", REFINEMENT: "refinement", ATTRIBUTE: "attributes", VALUES: "attributes"}.get(kind)
+        wants = {
+            GRID: "grid",
+            REFINEMENT: "refinement",
+            ATTRIBUTE: "attributes",
+            VALUES: "attributes",
+        }.get(kind)
         if wants and not header[wants]:
             raise UnsupportedError(f"frame type {kind}")  # F 3.6
         if kind == GOP:
@@ -268,7 +362,10 @@ def read_frames(stream, packets):
             entries = canonical_map(payload)
             plain = len(payload) - sum(len(value) for _, value in entries if type(value) is bytes)
             require_limit(plain, MOST_METADATA_BYTES, "metadata")
-            require(all(type(key) is str and type(v) is not list for key, v in entries), "metadata of a wrong type")
+            require(
+                all(type(key) is str and type(v) is not list for key, v in entries),
+                "metadata of a wrong type",
+            )
             names, metadata_bytes = {key for key, _ in entries}, metadata_bytes + plain
             require(not names & metadata_names, "duplicate metadata name")
             require_limit(metadata_bytes, MOST_METADATA_BYTES, "metadata")
@@ -279,28 +376,45 @@ def read_frames(stream, packets):
             parsed = parse_header(payload)
         elif kind == BLOCK:  # F 5.3, F 3.10
             parsed = index, width, _ = varints(payload, 2)
-            require(index == len(packets[BLOCK]) and index < header["blocks"], "blocks do not follow each other")
+            require(
+                index == len(packets[BLOCK]) and index < header["blocks"],
+                "blocks do not follow each other",
+            )
             require(width <= header["coefficients"], "too many coefficients")
         elif kind in (GRID, REFINEMENT):  # F 5.6, F 5.7, F 3.11, F 3.12
             parsed = first, count, _ = varints(payload, 2)
             cells = sum(header["base"][:1])  # M 18.8
             end = cells if first < cells else cells + header["vertices"]
-            require(first == covered and 0 < count <= end - first, "vertices do not follow each other")
+            require(
+                first == covered and 0 < count <= end - first, "vertices do not follow each other"
+            )
         elif kind == END:  # F 5.5
             count, crc = varints(payload, 1)
             require(len(crc) in (4, 8), "END has a wrong length")
             parsed = crc[4:]  # F 5.10
-        rank = RANKS[kind]  # F 3.8: ascending; CONNECTIVITY is required; only what comes behind ORDER repeats
-        legal = kind == HEADER if last is None else rank > last or (rank == last and rank > RANKS[ORDER])
+        # F 3.8: ascending; CONNECTIVITY is required; only what comes behind ORDER repeats.
+        rank = RANKS[kind]
+        legal = (
+            kind == HEADER
+            if last is None
+            else rank > last or (rank == last and rank > RANKS[ORDER])
+        )
         require(legal and (rank <= 1 or last >= 1), f"unexpected section type {kind}")
-        require(kind not in (PARTITION, BLOCK) or not header["grid"], "parts or a block where there is a grid")
+        require(
+            kind not in (PARTITION, BLOCK) or not header["grid"],
+            "parts or a block where there is a grid",
+        )
         require(kind != PARTITION or not header["base"], "parts that follow from cells")  # M 18.1
         if header and rank > RANKS[BLOCK]:
             require(len(packets[BLOCK]) == header["blocks"], "blocks are missing")  # F 3.10
-            require(not header["grid"] or covered == header["vertices"], "positions are missing")  # F 3.11
+            # F 3.11.
+            require(not header["grid"] or covered == header["vertices"], "positions are missing")
         if kind == END:
             require(count == number, "END counts other frames")
-            require(int.from_bytes(crc[:4], "little") == zlib.crc32(stream[:offset]), "CRC of the stream is wrong")
+            require(
+                int.from_bytes(crc[:4], "little") == zlib.crc32(stream[:offset]),
+                "CRC of the stream is wrong",
+            )
         last, header = rank, header or parsed
         if kind == HEADER and (entries := brief_entries(payload)):  # F 11.1
             _, faces, values = brief_fields(entries)
@@ -353,7 +467,10 @@ def derive_labels(graph, parts):  # M 4
     for part in range(parts):
         for v in order[ends[part] : ends[part + 1]]:
             labels[v] = part
-    sizes, room = [labels.count(part) for part in range(parts)], len(graph) * 103 // (parts * 100) + 1
+    sizes, room = (
+        [labels.count(part) for part in range(parts)],
+        len(graph) * 103 // (parts * 100) + 1,
+    )
     for _ in range(2):
         for v, row in enumerate(graph):
             own = best = labels[v]
@@ -379,7 +496,9 @@ def chain_of(graph, labels, parts):  # M 5.1: the parts in the order of the bloc
     while len(chain) < parts:
         shared.update(edges[chain[-1]])
         beside = [part for part in sorted(edges[chain[-1]]) if part not in chain]
-        ways = (part for last in reversed(chain) for part in sorted(edges[last]) if part not in chain)
+        ways = (
+            part for last in reversed(chain) for part in sorted(edges[last]) if part not in chain
+        )
         if beside:
             chain.append(max(beside, key=lambda part: shared[part]))  # the first of equals
         else:
@@ -403,7 +522,10 @@ class Block:  # M 6: vertices in row order, and the Laplacian (M 7.1) of the blo
         local = [[number[w] for w in graph[v] if w in number] for v in found]
         order = bisect(local, len(found))[0]
         row = {old: new for new, old in enumerate(order)}
-        self.vertices, self.graph = [found[old] for old in order], [[row[w] for w in local[old]] for old in order]
+        self.vertices, self.graph = (
+            [found[old] for old in order],
+            [[row[w] for w in local[old]] for old in order],
+        )
         self.size, self.degrees = len(found), np.array([len(r) for r in self.graph], float)
         self.laplacian = np.diag(self.degrees)
         for r, neighbors in enumerate(self.graph):
@@ -458,7 +580,10 @@ class Solver:  # M 7.5 to M 7.7: (L + S + shift I)^-1 in single precision
         self.order = elimination_order(list(range(size)), 0, size, farthest)
         self.springs = springs
         matrix[range(size), range(size)] += springs + shift
-        self.c, self.d = matrix[np.ix_(self.order, self.order)].astype(np.float32), np.zeros(size, np.float32)
+        self.c, self.d = (
+            matrix[np.ix_(self.order, self.order)].astype(np.float32),
+            np.zeros(size, np.float32),
+        )
         operations = 0
         for k in range(size):  # M 7.6
             own = self.c[k, k + 1 :].copy()
@@ -499,11 +624,14 @@ def elimination_order(rows, first, last, farthest):
         return rows
     cut = (first + last) // 2
     low, high = [r for r in rows if r < cut and farthest[r] < cut], [r for r in rows if r >= cut]
-    before = elimination_order(low, first, cut, farthest) + elimination_order(high, cut, last, farthest)
+    before = elimination_order(low, first, cut, farthest) + elimination_order(
+        high, cut, last, farthest
+    )
     return before + [r for r in rows if r < cut <= farthest[r]]
 
 
-def onorm(columns, order, alone):  # M 8.1; `alone` gets the columns that are made orthonormal one by one
+# M 8.1; `alone` gets the columns that are made orthonormal one by one.
+def onorm(columns, order, alone):
     x, lengths = columns.copy(), ordered_sum(columns * columns)
     for begin in range(0, x.shape[1], 64):
         panel = x[:, begin : begin + 64]
@@ -538,7 +666,10 @@ def cleaned(before, column, order):  # M 8.8
     while times < 8:
         square = ordered_sum(v * v)
         if times == 4 or (times < 4 and not 0 < square < np.inf):
-            times, v = 4, np.array([hash_entry(row, before.shape[1]) for row in order]).astype(np.float32)
+            times, v = (
+                4,
+                np.array([hash_entry(row, before.shape[1]) for row in order]).astype(np.float32),
+            )
             square = ordered_sum(v * v)
         if not 0 < square < np.inf:
             break
@@ -581,7 +712,9 @@ EXPERIENCE_SHA256 = "2a093067f31fc03a6ec865ebc6193347d2b21ff18e6f4903e80cfc3af97
 class CoefficientModel:  # One for each chain
     def __init__(self, width):
         data = (Path(__file__).parent / "priors.bin").read_bytes()  # M 9.1
-        assert hashlib.sha256(data).hexdigest() == EXPERIENCE_SHA256, "priors.bin is not that of the law"
+        assert hashlib.sha256(data).hexdigest() == EXPERIENCE_SHA256, (
+            "priors.bin is not that of the law"
+        )
         numbers = np.frombuffer(data, "<u2").astype(int)
         self.expectations, slots = numbers[:360].reshape(3, 6, 20).tolist(), numbers[588:].tolist()
         mixing = np.frombuffer(data, "<i2").astype(int)[360:588].reshape(76, 3).tolist()
@@ -594,7 +727,10 @@ class CoefficientModel:  # One for each chain
             for i, weight in enumerate(row):
                 self.models[number // 38].weights[i, number % 38] = 16 * weight
         self.width, self.blocks = width, 0
-        self.now, self.before, self.usual = ([[0, 0, 0] for _ in range(width + 11)] for _ in range(3))  # M 9.3
+        # M 9.3.
+        self.now, self.before, self.usual = (
+            [[0, 0, 0] for _ in range(width + 11)] for _ in range(3)
+        )
 
     def block(self, decoder, count):  # `count` rows of points, in half steps
         points, last = [[0, 0, 0] for _ in range(count)], [0, 0, 0]
@@ -609,7 +745,9 @@ class CoefficientModel:  # One for each chain
         for j in range(8, 8 + self.width):  # M 9.7
             for d in range(3):
                 self.before[j][d] = self.now[j][d]
-                self.usual[j][d] += (16 * self.now[j][d] - self.usual[j][d]) // min(self.blocks + 1, 8)
+                self.usual[j][d] += (16 * self.now[j][d] - self.usual[j][d]) // min(
+                    self.blocks + 1, 8
+                )
                 self.now[j][d] = 0
         self.blocks += 1
         return points
@@ -631,7 +769,10 @@ class CoefficientModel:  # One for each chain
     def level(self, decoder, row, d, grid):
         inputs, contexts = self.inputs(row, d), []
         for i in range(3):  # M 9.5
-            x = sum(w * k for w, k in zip(self.expectations[i][d + 3 * (self.blocks == 0)], inputs)) >> 10
+            x = (
+                sum(w * k for w, k in zip(self.expectations[i][d + 3 * (self.blocks == 0)], inputs))
+                >> 10
+            )
             g = x.bit_length() - 1
             contexts.append(min(3 * g + ((3 * (x - (1 << g))) >> g), 47) if x >= 1 else 0)
 
@@ -659,7 +800,11 @@ class CoefficientModel:  # One for each chain
 
 class Chain:  # M 10.1: what blocks learn from those before them
     def __init__(self, header, graph):
-        self.header, self.graph, self.model = header, graph, CoefficientModel(header["coefficients"])
+        self.header, self.graph, self.model = (
+            header,
+            graph,
+            CoefficientModel(header["coefficients"]),
+        )
         self.known, self.dictionary, self.alone = Known(len(graph)), None, 0
 
     shift, power, iterations, key_iterations = 2.0**-7, 3, 1, 2  # M 1.1
@@ -733,10 +878,18 @@ def extension_base():
 def decode_blocks(header, graph, blocks, partition):  # M 4 to M 12.1: positions in BSM units
     parts, work, blended = header["blocks"], 0.0, Known(len(graph))
     most = 8e8 + 3.2e4 * header["vertices"]  # M 14.9
-    labels = extension_paper().labels_of(partition, graph, parts) if partition else derive_labels(graph, parts)
+    labels = (
+        extension_paper().labels_of(partition, graph, parts)
+        if partition
+        else derive_labels(graph, parts)
+    )
     cores = [[v for v, label in enumerate(labels) if label == part] for part in range(parts)]
     require(max(map(len, cores)) <= header["block_size"], "a part is larger than a block")  # M 5.2
-    kind = Chain if header["paper"] == FIELDS["paper"][4] and not header["onorm"] else extension_paper().Chain
+    kind = (
+        Chain
+        if header["paper"] == FIELDS["paper"][4] and not header["onorm"]
+        else extension_paper().Chain
+    )
     for part, (index, width, payload) in zip(chain_of(graph, labels, parts), blocks):
         if index % (header["key_interval"] or parts) == 0:  # M 10.1
             chain = kind(header, graph)
@@ -756,7 +909,10 @@ def smooth(graph, positions, amount):  # M 12.2
         return positions
     current, result = positions, positions
     for k, power in enumerate([0.0, *smoothing_powers(amount)]):
-        around = [ordered_sum(current[row]) * (1.0 / len(row)) if row else own for row, own in zip(graph, current)]
+        around = [
+            ordered_sum(current[row]) * (1.0 / len(row)) if row else own
+            for row, own in zip(graph, current)
+        ]
         current = current - around
         result = result + power * current if k else result
     return result
@@ -773,7 +929,8 @@ def smoothing_powers(amount):  # M 12.3: p_2 to p_5
     return powers
 
 
-def refine(step, ratio, faces, positions, refinements):  # M 17: base positions and what the layer adds to them
+# M 17: base positions and what the layer adds to them.
+def refine(step, ratio, faces, positions, refinements):
     count, coded = len(positions), 0
     sums = np.zeros((count, 3))
     for a, b, c in faces:  # M 17.1
@@ -826,7 +983,9 @@ def decode_packets(packets, fault):
     if CONNECTIVITY not in packets:
         raise fault
     header, vertices = packets[HEADER][0], packets[HEADER][0]["vertices"]
-    faces = decode_connectivity(packets[CONNECTIVITY][0], vertices, header["faces"], LIMITS["vertices"])
+    faces = decode_connectivity(
+        packets[CONNECTIVITY][0], vertices, header["faces"], LIMITS["vertices"]
+    )
     if header["grid"]:
         reader = GridReader(faces, vertices, header["grid"])
         for _, count, payload in packets[GRID]:
@@ -843,7 +1002,10 @@ def decode_packets(packets, fault):
         positions, layer = smooth(ground, positions, header["smoothing"]), packets[REFINEMENT]
         if header["base"]:  # M 18.6, M 18.7
             of_cells = [levels for levels in layer if levels[0] < len(ground)]
-            positions, layer = refine(0.5**cells.halvings, 3, cells.faces, positions, of_cells), layer[len(of_cells) :]
+            positions, layer = (
+                refine(0.5**cells.halvings, 3, cells.faces, positions, of_cells),
+                layer[len(of_cells) :],
+            )
             positions = cells.prolonged(positions)
         if header["refinement"]:
             positions = refine(*header["refinement"], faces, positions, layer)
@@ -853,7 +1015,11 @@ def decode_packets(packets, fault):
     if not np.isfinite(positions).all():
         raise NumericError("positions are not finite")
     (checksum,) = packets[END]
-    require(not checksum or int.from_bytes(checksum, "little") == zlib.crc32((positions + 0.0).astype("<f8")), "F 5.10")
+    require(
+        not checksum
+        or int.from_bytes(checksum, "little") == zlib.crc32((positions + 0.0).astype("<f8")),
+        "F 5.10",
+    )
     return positions, np.array(faces, np.int32).reshape(-1, 3)
 
 

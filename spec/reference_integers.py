@@ -11,7 +11,14 @@ from bisect import bisect_left
 from collections import OrderedDict, namedtuple
 
 # F 1: the errors that a decoder tells apart
-ERRORS = ("FormatError", "CorruptError", "UnsupportedError", "LimitError", "NumericError", "TruncatedError")
+ERRORS = (
+    "FormatError",
+    "CorruptError",
+    "UnsupportedError",
+    "LimitError",
+    "NumericError",
+    "TruncatedError",
+)
 ERRORS = [type(name, (Exception,), {}) for name in ERRORS]
 FormatError, CorruptError, UnsupportedError, LimitError, NumericError, TruncatedError = ERRORS
 
@@ -32,7 +39,9 @@ def div(a, b):  # F 1.4: towards zero
 
 
 # C 2.1 for x = -2880 .. 2879, C 2.2 for j = 0 .. 4095
-SQUASH = [clamp(math.floor(65536 / (1 + math.exp(-x / 256)) + 0.5), 1, 65535) for x in range(-2880, 2880)]
+SQUASH = [
+    clamp(math.floor(65536 / (1 + math.exp(-x / 256)) + 0.5), 1, 65535) for x in range(-2880, 2880)
+]
 UPPER = [bisect_left(SQUASH, 16 * j + 8) - 2880 for j in range(2048, 4096)]
 STRETCH = [-x for x in reversed(UPPER)] + UPPER
 
@@ -58,7 +67,9 @@ class RangeDecoder:  # C 1: decisions out of a payload
     def renormalize(self):  # C 1.3
         while self.range < 1 << 24:
             self.range *= 256
-            self.low = 256 * self.low + (self.payload[self.taken] if self.taken < len(self.payload) else 0)
+            self.low = 256 * self.low + (
+                self.payload[self.taken] if self.taken < len(self.payload) else 0
+            )
             self.taken += 1
 
     def uniform(self, count):  # C 1.4: a number below `count`
@@ -83,17 +94,23 @@ class RangeDecoder:  # C 1: decisions out of a payload
             self.fail("bytes are left over")
 
     def fail(self, problem):  # C 1.6
-        raise TruncatedError("a payload ends too early") if self.overran() else CorruptError(problem)
+        raise (
+            TruncatedError("a payload ends too early") if self.overran() else CorruptError(problem)
+        )
 
 
 class Model:  # C 2.3: slots and weights, made when they are first used
     def __init__(self, inputs, limit=255, rate=14, first=(1 << 21, 0)):
         self.limit, self.rate, self.first, self.slots, self.weights = limit, rate, first, {}, {}
-        self.first_weight = {1: 65536, 2: 32768, 3: 27306, 4: 20480, 5: 16384, 6: 13653, 14: 5851}[inputs]
+        self.first_weight = {1: 65536, 2: 32768, 3: 27306, 4: 20480, 5: 16384, 6: 13653, 14: 5851}[
+            inputs
+        ]
 
-    def bit(self, decoder, contexts, node):  # C 2.4 to C 2.6: predict a decision, decode it, learn from it
+    # C 2.4 to C 2.6: predict a decision, decode it, learn from it.
+    def bit(self, decoder, contexts, node):
         places = [(i, context, node) for i, context in enumerate(contexts)]
-        stretched = [STRETCH[self.slots.get(place, self.first)[0] >> 10] for place in places]  # C 2.4
+        # C 2.4.
+        stretched = [STRETCH[self.slots.get(place, self.first)[0] >> 10] for place in places]
         weights = [self.weights.get((i, node), self.first_weight) for i in range(len(contexts))]
         total = sum(s * w for s, w in zip(stretched, weights)) >> 16
         probability = SQUASH[clamp(total, -2880, 2879) + 2880]
@@ -137,10 +154,20 @@ LOOP, VALENCE, DUMMY, NUMBERED, BACKWARD, SKIPPED, COUNTS = 0, 28, 56, 84, 85, 1
 def decode_connectivity(payload, vertices, faces, most=1 << 24):
     """C 4: `faces` triangles of `vertices` vertices; `most` is the limit for vertices."""
     decoder, rare = RangeDecoder(payload), Model(inputs=1)
-    degenerate, lonely, surplus, dummies = (read_unsigned(decoder, rare, (0,), 2, COUNTS) for _ in range(4))  # C 4.2
+    # C 4.2.
+    degenerate, lonely, surplus, dummies = (
+        read_unsigned(decoder, rare, (0,), 2, COUNTS) for _ in range(4)
+    )
     proper, regular = faces - degenerate, vertices - lonely
     fans = regular + surplus
-    if proper < 0 or regular < 0 or lonely > 3 * degenerate or fans > 3 * proper or dummies > 3 * proper:  # C 4.3
+    # C 4.3.
+    if (
+        proper < 0
+        or regular < 0
+        or lonely > 3 * degenerate
+        or fans > 3 * proper
+        or dummies > 3 * proper
+    ):
         decoder.fail("the counts contradict each other")
     if fans + dummies > most:
         raise LimitError(f"{fans + dummies} vertices are over the limit")
@@ -255,7 +282,10 @@ class Conquest:  # C 5 and C 6: triangle by triangle over the closed surface
         if usual or dummy:  # C 6.6
             if dummy:  # it closes a boundary loop
                 self.dummies_left -= 1
-                vertex, valence = Vertex(0, -1), 2 + read_unsigned(self.decoder, self.rare, (0,), 2, LOOP)
+                vertex, valence = (
+                    Vertex(0, -1),
+                    2 + read_unsigned(self.decoder, self.rare, (0,), 2, LOOP),
+                )
             else:
                 vertex, valence = self.add_fan()
             node = other = self.add_node(vertex, valence - 2)
@@ -367,7 +397,8 @@ def read_seams(decoder, faces, fans):  # C 7: the vertex of each fan
         if following >= 0:
             before[following] = fan
     model, latest = Model(inputs=1), []  # the latest fan of each vertex
-    vertex, earlier = [-1] * fans, [-1] * fans  # earlier: the latest fan of the same vertex before this one
+    # Earlier: the latest fan of the same vertex before this one.
+    vertex, earlier = [-1] * fans, [-1] * fans
 
     def state(fan):  # C 7.2
         return 0 if fan < 0 or vertex[fan] < 0 else 1 if earlier[fan] < 0 else 2
@@ -438,7 +469,9 @@ def neighbors_of(faces, vertices):  # M 2.1: the neighbors of each vertex, ascen
 class Mesh:  # What both sides know
     def __init__(self, faces, vertices, traverse):
         self.vertex = [v for face in faces for v in face]  # V 1.1
-        self.next, self.previous = ([k - k % 3 + (k + i) % 3 for k in range(len(self.vertex))] for i in (1, 2))
+        self.next, self.previous = (
+            [k - k % 3 + (k + i) % 3 for k in range(len(self.vertex))] for i in (1, 2)
+        )
         self.vertices, self.corners, self.opposite = vertices, [[] for _ in range(vertices)], {}
         for k, v in enumerate(self.vertex):
             self.corners[v].append(k)
@@ -453,7 +486,10 @@ class Mesh:  # What both sides know
         for v in range(self.vertices):
             waits = {}
             for k in self.corners[v]:
-                for end, facing in ((self.next[k], self.previous[k]), (self.previous[k], self.next[k])):
+                for end, facing in (
+                    (self.next[k], self.previous[k]),
+                    (self.previous[k], self.next[k]),
+                ):
                     u = self.vertex[end]
                     if u > v and u in waits:
                         other = waits.pop(u)
@@ -493,7 +529,10 @@ class Mesh:  # What both sides know
                         promote(self.vertex[self.opposite[k]], 1)
                 elif known_a or known_b:
                     t = b if known_a else a
-                    promote(self.vertex[t], int(t in self.opposite and known[self.vertex[self.opposite[t]]]))
+                    promote(
+                        self.vertex[t],
+                        int(t in self.opposite and known[self.vertex[self.opposite[t]]]),
+                    )
         return order
 
     def neighbors(self, v):  # V 3.1
@@ -522,13 +561,18 @@ TABLES_SHA256 = "55311cc8ec5fcbb0687028fd79e580ec8a33a972c60c8621a9d5c22a0ec5a1b
 
 def make_survival(z):  # V 14.1
     terms = zip((1, 2, 4, 1, 1), (16, 4, 1.5, 1, 1 / 3))
-    return round(-65536 * math.log(sum(factor / (1 + math.exp(rate * z)) for factor, rate in terms) / 9))
+    return round(
+        -65536 * math.log(sum(factor / (1 + math.exp(rate * z)) for factor, rate in terms) / 9)
+    )
 
 
 def make_odds(i):  # V 14.2: ODDS(i), LESS(i)
     d = (max(i, 0.5) if i < 32 else (32 + i % 32 + 0.5) * 2.0 ** (i // 32 - 1)) / 65536
     more = d + math.log(-math.expm1(-d))
-    return [clamp(round(256 * x), -4000, 4000) for x in (more, math.log(-math.expm1(-d)) if d < 30 else -math.exp(-d))]
+    return [
+        clamp(round(256 * x), -4000, 4000)
+        for x in (more, math.log(-math.expm1(-d)) if d < 30 else -math.exp(-d))
+    ]
 
 
 SURVIVAL = [make_survival(i / 32) for i in range(-512, 513)]
@@ -536,7 +580,8 @@ ODDS, LESS = (list(table) for table in zip(*map(make_odds, range(544))))
 _BYTES = struct.pack("<2113i", *SURVIVAL, *ODDS, *LESS)
 assert hashlib.sha256(_BYTES).hexdigest() == TABLES_SHA256, "the tables are not those of V 14.3"
 
-Expectation = namedtuple("Expectation", "predictions size contexts scale_context hit_context set")  # V 5.1
+# V 5.1.
+Expectation = namedtuple("Expectation", "predictions size contexts scale_context hit_context set")
 
 
 def whole(fine):
@@ -546,7 +591,9 @@ def whole(fine):
 def survival(distance, inverse):  # V 4.1: A
     z = (distance * inverse) >> 20
     if z >= 16384:
-        return SURVIVAL[1024] + (((min(z, 1 << 20) - 16384) * (SURVIVAL[1024] - SURVIVAL[1023])) >> 5)
+        return SURVIVAL[1024] + (
+            ((min(z, 1 << 20) - 16384) * (SURVIVAL[1024] - SURVIVAL[1023])) >> 5
+        )
     z = max(z, -16384)
     i = (z >> 5) + 512
     return SURVIVAL[i] + (((SURVIVAL[i + 1] - SURVIVAL[i]) * (z & 31)) >> 5)
@@ -559,7 +606,13 @@ def odds(d, table=ODDS):  # V 4.2: G, or with LESS H
 
 class ValueModel:  # V 4.3
     def __init__(self):
-        self.slots, self.node_weights, self.kind_weights, self.hits, self.scales = {}, {}, {}, {}, {}
+        self.slots, self.node_weights, self.kind_weights, self.hits, self.scales = (
+            {},
+            {},
+            {},
+            {},
+            {},
+        )
 
     def bit(self, decoder, e, node, kind, given):  # V 4.4, V 4.5
         places = [(i, context, node) for i, context in enumerate(e.contexts)]
@@ -588,7 +641,9 @@ class ValueModel:  # V 4.3
             value = self.search(decoder, e, inverse, whole(p[6]), k, refuted)
         for j in range(7):  # V 5.9
             place = (j, e.hit_context)
-            self.hits[place] = learn_slot(self.hits.get(place, (1 << 18, 0)), whole(p[j]) == value, 60)
+            self.hits[place] = learn_slot(
+                self.hits.get(place, (1 << 18, 0)), whole(p[j]) == value, 60
+            )
             mean, count = self.scales.get((j, e.scale_context), (0, 0))
             usual = mean if count > 0 else 256 * size
             seen = min(256 * abs(16 * value - p[j]), 8 * usual + 4096, 1 << 30)
@@ -596,7 +651,8 @@ class ValueModel:  # V 4.3
             self.scales[j, e.scale_context] = mean, min(count + 1, 255)
         return value
 
-    def ask(self, decoder, e, inverse):  # V 5.4: the value, if a question finds it, and the refuted numbers
+    # V 5.4: the value, if a question finds it, and the refuted numbers.
+    def ask(self, decoder, e, inverse):
         p, refuted, remaining = e.predictions, [], list(range(7))
         while remaining and len(refuted) < 3:
             rates = [self.hits.get((j, e.hit_context), (1 << 18, 0))[0] for j in remaining]
@@ -621,7 +677,13 @@ class ValueModel:  # V 4.3
         lean = sum(q > center for q in refuted) - sum(q < center for q in refuted)
         node = 14 if not refuted else 15 if lean < 0 else 16 if lean == 0 else 17
         away = [16 * g - 8 - p[j] for j in range(7)]
-        up = self.bit(decoder, e, node, 1, [(survival(-d, s) - survival(d, s)) >> 8 for d, s in zip(away, inverse)])
+        up = self.bit(
+            decoder,
+            e,
+            node,
+            1,
+            [(survival(-d, s) - survival(d, s)) >> 8 for d, s in zip(away, inverse)],
+        )
         r, f = (1, g) if up else (-1, center - 1)
         m = 16 * f - 8 * r
 
@@ -647,7 +709,10 @@ class ValueModel:  # V 4.3
                 t, b = a + (1 << (h + 4)), a + (2 << (h + 4))
                 s = inverse[j]
                 if t >= 0:
-                    given.append(odds(survival(b, s) - survival(t, s), LESS) - odds(survival(t, s) - survival(a, s)))
+                    given.append(
+                        odds(survival(b, s) - survival(t, s), LESS)
+                        - odds(survival(t, s) - survival(a, s))
+                    )
                 else:
                     low = odds(survival(-a, s) - survival(-t, s), LESS)
                     given.append(odds(survival(-t, s) - survival(-b, s)) - low)
@@ -671,7 +736,10 @@ class Learner:
 
     def learn(self, terms, target, size, turn=None):  # V 6.2, of all weights or, by V 6.3, of one
         x = limited(terms)
-        h = 2 * (max(size, abs(target) >> 4, *(abs(value) >> 5 for value in x)) + 8).bit_length() - 8
+        h = (
+            2 * (max(size, abs(target) >> 4, *(abs(value) >> 5 for value in x)) + 8).bit_length()
+            - 8
+        )
         for i in self.terms:
             for j in self.terms:
                 self.squares[i][j] += ((256 * x[i] * x[j]) >> h) - (self.squares[i][j] >> 11)
@@ -731,7 +799,11 @@ class Plane:
         self.square, self.dot, self.used = sum(x * x for x in self.n), 0, 0
 
     def tilt(self, j):  # V 8.6
-        return clamp(div(-self.n[j] * self.dot, self.square - self.used + (self.square >> 6) + 1), -(1 << 26), 1 << 26)
+        return clamp(
+            div(-self.n[j] * self.dot, self.square - self.used + (self.square >> 6) + 1),
+            -(1 << 26),
+            1 << 26,
+        )
 
     def pass_axis(self, j, error):  # V 8.6
         self.dot += self.n[j] * error
@@ -756,7 +828,10 @@ class GridReader(Field):
     def vertex(self, decoder, v):
         mesh, x = self.mesh, self.x
         near = mesh.neighbors(v)
-        flaps = sorted(mesh.flaps(v), key=lambda f: 2 * self.error(f[2]) + self.error(f[0]) + self.error(f[1]))  # V 8.1
+        # V 8.1.
+        flaps = sorted(
+            mesh.flaps(v), key=lambda f: 2 * self.error(f[2]) + self.error(f[0]) + self.error(f[1])
+        )
         before = mesh.order[mesh.rank[v] - 1] if mesh.rank[v] > 0 else None
         across = [[16 * (x[a][j] + x[b][j] - x[c][j]) for j in range(3)] for a, b, c, _ in flaps]
         if near:  # V 8.2
@@ -769,7 +844,10 @@ class GridReader(Field):
         base = [rounded(sum(p[j] for p in across), len(flaps)) for j in range(3)] if flaps else mean
         shape, closing = self.shape(v, flaps), self.closing(near, base)
         normals = [normal(x[a], x[b], x[c]) for a, b, c, _ in flaps]  # V 8.5
-        planes, main = [Plane(n) for n in normals[:2]], Plane([sum(normal[j] for normal in normals) for j in range(3)])
+        planes, main = (
+            [Plane(n) for n in normals[:2]],
+            Plane([sum(normal[j] for normal in normals) for j in range(3)]),
+        )
         f, hits, first_gap = min(len(flaps), 3), 0, 0
         for step, j in enumerate(sorted(range(3), key=lambda j: (abs(main.n[j]), j))):
             far, tilt = 16 * self.largest[j], main.tilt(j)
@@ -803,7 +881,9 @@ class GridReader(Field):
                 hits + 128 * step if step else 0,
             ]
             hit_context = 8 * (0 if step == 0 else 1 + (hits > 0)) + 2 * f + (error[j] < 16)
-            value = self.model.value(decoder, Expectation(predictions, e, contexts, b, hit_context, step))
+            value = self.model.value(
+                decoder, Expectation(predictions, e, contexts, b, hit_context, step)
+            )
             if not 0 <= value <= self.largest[j]:  # V 7.2
                 decoder.fail("a value is outside the grid")
             x[v][j] = value
@@ -826,7 +906,11 @@ class GridReader(Field):
             q = [x[b][j] - x[a][j] for j in range(3)]
             o = [8 * (x[a][j] + x[b][j]) - 16 * x[c][j] for j in range(3)]
             square = sum(value * value for value in q)
-            skew = clamp(div(-16 * sum(s * t for s, t in zip(o, q)), square), -384, 384) if square else 0
+            skew = (
+                clamp(div(-16 * sum(s * t for s, t in zip(o, q)), square), -384, 384)
+                if square
+                else 0
+            )
             turn = clamp(mesh.degree[a] - mesh.degree[b], -8, 8)
             for j in range(3):
                 shape[0][j] += o[j]
@@ -838,7 +922,11 @@ class GridReader(Field):
                     other = b if e == a else a
                     for j in range(3):
                         shape[3][j] += 8 * (x[e][j] + x[z][j] - x[c][j] - x[other][j])
-        return [[rounded(value, len(flaps)) for value in term] for term in shape] if len(flaps) > 1 else shape
+        return (
+            [[rounded(value, len(flaps)) for value in term] for term in shape]
+            if len(flaps) > 1
+            else shape
+        )
 
     def closing(self, near, base):  # V 8.4
         found, total = [u for u in near if self.mesh.degree[u] - self.count[u] <= 1], [0, 0, 0]
@@ -884,7 +972,12 @@ class LevelsReader(Field):
 
     def vertex(self, decoder, v):
         near, flaps, own = self.mesh.neighbors(v), self.mesh.flaps(v), 0
-        busy = rounded(sum(16 * abs(level) for u in near for level in self.x[u]), len(near)) if near else 64  # V 11.3
+        # V 11.3.
+        busy = (
+            rounded(sum(16 * abs(level) for u in near for level in self.x[u]), len(near))
+            if near
+            else 64
+        )
         for j in range(3):
             self.x[v][j] = level = self.level(decoder, v, j, near, flaps, busy, own)
             own = abs(level) + own // 2
@@ -906,7 +999,8 @@ class LevelsReader(Field):
             flap = rounded(sum(16 * (x[a] + x[b] - x[c]) for a, b, c, _ in flaps), len(flaps))
             tip = rounded(sum(16 * x[c] for _, _, c, _ in flaps), len(flaps))
         f = min(len(flaps), 3)
-        learner = self.learners.setdefault((j, f), Learner([52000, 28000 if f else 0, 0, 0, 0, 0]))  # V 11.4
+        # V 11.4.
+        learner = self.learners.setdefault((j, f), Learner([52000, 28000 if f else 0, 0, 0, 0, 0]))
         terms = [mean, flap - mean, tip - mean, 16 * early - mean, drift, ring - mean]
         quiet = bool(near) and typical == 0 and tip == 0
         guess = 0 if quiet else learner.foretell(terms, 1 << 24)
@@ -925,10 +1019,21 @@ class LevelsReader(Field):
             24 * min(a, 20) + s,
             16 * s + 4 * f + w,
             49 * c3(late) + 7 * c3(early) + c3(tip >> 4) if j == 0 else 12 * b + o,
-            8 * (clamp(guess + 96, 0, 191) >> 2) + degree if j == 0 else 3 * (12 * min(a, 11) + o) + min(w, 2),
-            14 * (6 * min(len(near), 5) + min(degree, 5)) + 2 * (3 - w if rest < 0 else 3 + w) + (s > 8),
+            8 * (clamp(guess + 96, 0, 191) >> 2) + degree
+            if j == 0
+            else 3 * (12 * min(a, 11) + o) + min(w, 2),
+            14 * (6 * min(len(near), 5) + min(degree, 5))
+            + 2 * (3 - w if rest < 0 else 3 + w)
+            + (s > 8),
         ]
-        value = self.value(decoder, self.models[min(j, 1)], contexts, c, rest, max((error >> 4).bit_length() - 1, 0))
+        value = self.value(
+            decoder,
+            self.models[min(j, 1)],
+            contexts,
+            c,
+            rest,
+            max((error >> 4).bit_length() - 1, 0),
+        )
         if abs(value) > 1 << 20:  # V 11.1
             decoder.fail("a level is out of range")
         self.gap[v][j] = 16 * value - guess
@@ -943,7 +1048,9 @@ class LevelsReader(Field):
         r, d, i = 1 if model.bit(decoder, contexts, 1) else -1, 0, 0
         while True:
             h = k if i < 4 else k + i // 2 - 1
-            if d + (1 << h) > 1 << 22 or not model.bit(decoder, contexts, 2 + 2 * min(i, 9) + (r * rest < 0)):
+            if d + (1 << h) > 1 << 22 or not model.bit(
+                decoder, contexts, 2 + 2 * min(i, 9) + (r * rest < 0)
+            ):
                 break
             d, i = d + (1 << h), i + 1
         if h > 0:

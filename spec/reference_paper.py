@@ -10,7 +10,14 @@ import reference_decoder as law
 from reference_integers import CorruptError, Model, NumericError, RangeDecoder
 
 # F 10.1: the largest value of each entry of `paper`; all but the shift are whole numbers
-LARGEST = {"bits": 32, "coarser": 30, "exact": 1, "power": 64, "iterations": 1024, "key_iterations": 1024}
+LARGEST = {
+    "bits": 32,
+    "coarser": 30,
+    "exact": 1,
+    "power": 64,
+    "iterations": 1024,
+    "key_iterations": 1024,
+}
 LARGEST |= {"shift": 2.0**30, "springs": 1}
 LEAST = {"power": 1, "iterations": 1, "key_iterations": 1, "shift": 2.0**-30}
 
@@ -41,13 +48,23 @@ def decompressed(frame, size):
     import zstandard
 
     try:
-        about, decoder = zstandard.get_frame_parameters(frame), zstandard.ZstdDecompressor().decompressobj()
-        law.require(about.content_size == size and about.window_size <= 8 << 20, "zstd says another size")
-        law.require(not about.has_checksum and not about.dict_id, "zstd has a checksum or a dictionary")
+        about, decoder = (
+            zstandard.get_frame_parameters(frame),
+            zstandard.ZstdDecompressor().decompressobj(),
+        )
+        law.require(
+            about.content_size == size and about.window_size <= 8 << 20, "zstd says another size"
+        )
+        law.require(
+            not about.has_checksum and not about.dict_id, "zstd has a checksum or a dictionary"
+        )
         data = decoder.decompress(frame)
     except zstandard.ZstdError as error:
         raise CorruptError(f"zstd: {error}") from None
-    law.require(decoder.eof and not decoder.unused_data and len(data) == size, "a zstd frame of another length")
+    law.require(
+        decoder.eof and not decoder.unused_data and len(data) == size,
+        "a zstd frame of another length",
+    )
     return data
 
 
@@ -60,7 +77,8 @@ def labels_of(payload, graph, blocks):
         c, m, label = len(candidates), len(before), None
         for k, part in enumerate(candidates):
             votes = before.count(part)
-            contexts = min(m, 15), min(votes, 7) + 8 * (k < c - 1), min(m - votes, 3) + 4 * (c - 1)  # C 10.3
+            # C 10.3.
+            contexts = min(m, 15), min(votes, 7) + 8 * (k < c - 1), min(m - votes, 3) + 4 * (c - 1)
             if model.bit(decoder, contexts, k):
                 label = part
                 break
@@ -164,7 +182,11 @@ class Chain(law.Chain):
             return exact.iterate(start, 256)
         if not self.apart:
             return super().improved(block, solver, start)
-        columns, result, (power, iterations) = start[solver.order], np.zeros_like(start), self.solutions(block)
+        columns, result, (power, iterations) = (
+            start[solver.order],
+            np.zeros_like(start),
+            self.solutions(block),
+        )
         for _ in range(iterations):  # M 8.9
             for solution in range(1, power + 1):
                 columns = solver.solve(columns)

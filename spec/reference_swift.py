@@ -7,7 +7,17 @@ A 5 and A 6).
 
 import math
 
-from reference_integers import Mesh, Model, RangeDecoder, clamp, div, learn_slot, rounded, size_class, whole
+from reference_integers import (
+    Mesh,
+    Model,
+    RangeDecoder,
+    clamp,
+    div,
+    learn_slot,
+    rounded,
+    size_class,
+    whole,
+)
 
 
 def shortened(numbers, bits):  # V: all by the same shift
@@ -31,7 +41,8 @@ def sign(x):  # F 1.4: sgn
     return (x > 0) - (x < 0)
 
 
-class Distances:  # V 15.2, V 15.6, and with `mixed` A 9.5: how far values of one component are from their guesses
+# V 15.2, V 15.6, and with `mixed` A 9.5: how far values of one component are from their guesses.
+class Distances:
     def __init__(self, mixed):
         self.plain, self.mixed = {}, Model(3) if mixed else None
         if mixed:
@@ -96,11 +107,19 @@ class Directions:  # A 6.1 to A 6.3
 
 class Rows:  # A 9: of one group of components
     def __init__(self, faces, rows, largest, swift, normals=False, geometry=None):
-        self.mesh, self.largest, self.normals, self.geometry = Mesh(faces, rows, False), largest, normals, geometry
+        self.mesh, self.largest, self.normals, self.geometry = (
+            Mesh(faces, rows, False),
+            largest,
+            normals,
+            geometry,
+        )
         self.distances = [Distances(swift == 2) for _ in largest]
         self.values, self.tallies, self.errors, self.turns = [], [], [], 0
         self.directions = Directions(largest[0] // 2)
-        self.own, self.surface = [], [self.angle(v) for v in range(rows)] if normals and geometry else []
+        self.own, self.surface = (
+            [],
+            [self.angle(v) for v in range(rows)] if normals and geometry else [],
+        )
 
     def read(self, payload, count):
         decoder = RangeDecoder(payload)
@@ -141,7 +160,9 @@ class Rows:  # A 9: of one group of components
         best = sums.index(min(sums))  # A 9.3
         first = 160 if self.normals else 16 * self.largest[0]
         s = sum(self.errors[u] for u in ends) // (len(ends) * len(self.largest)) if ends else first
-        candidates = self.normal_candidates(v, ends) if self.normals else self.candidates(v, ends, bases)
+        candidates = (
+            self.normal_candidates(v, ends) if self.normals else self.candidates(v, ends, bases)
+        )
         guesses, shown = candidates[best], candidates
         if self.normals:  # A 9.7
             view = self.directions.view(self.directions.scaled(candidates[best]))
@@ -163,7 +184,11 @@ class Rows:  # A 9: of one group of components
             ]
             x.append(distances.read(decoder, guesses[j], size, kind, contexts))
             gaps.append(16 * x[j] - guesses[j])
-            low, high = (-self.largest[0] // 2, self.largest[0] // 2) if self.normals else (0, self.largest[j])
+            low, high = (
+                (-self.largest[0] // 2, self.largest[0] // 2)
+                if self.normals
+                else (0, self.largest[j])
+            )
             if not low <= x[j] <= high:
                 decoder.fail("a value is out of its range")
         target = [16 * each for each in x]
@@ -180,10 +205,15 @@ class Rows:  # A 9: of one group of components
     def candidates(self, v, ends, bases):  # A 9.6
         columns, x = range(len(self.largest)), self.values
         last = [16 * x[v - 1][j] if v else 8 * self.largest[j] for j in columns]
-        mean = [rounded(16 * sum(x[u][j] for u in ends), len(ends)) for j in columns] if ends else last
+        mean = (
+            [rounded(16 * sum(x[u][j] for u in ends), len(ends)) for j in columns] if ends else last
+        )
         flaps = [base for base in bases if base[2] is not None]
         across = (
-            [rounded(16 * sum(x[a][j] + x[b][j] - x[c][j] for a, b, c in flaps), len(flaps)) for j in columns]
+            [
+                rounded(16 * sum(x[a][j] + x[b][j] - x[c][j] for a, b, c in flaps), len(flaps))
+                for j in columns
+            ]
             if (flaps)
             else mean
         )
@@ -194,7 +224,8 @@ class Rows:  # A 9: of one group of components
         claims = [self.claim(v, *base) for base in bases]
         weights = sum(w for _, _, w in claims)
         affine, similar = (
-            [rounded(sum(claim[i][j] * claim[2] for claim in claims), weights) for j in columns] for i in (0, 1)
+            [rounded(sum(claim[i][j] * claim[2] for claim in claims), weights) for j in columns]
+            for i in (0, 1)
         )
         return affine, across, similar
 
@@ -203,13 +234,19 @@ class Rows:  # A 9: of one group of components
         return sign((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]))
 
     def spot(self, w, a, b):  # A 5.1
-        numbers, _ = shortened(less(self.geometry[b], self.geometry[a]) + less(self.geometry[w], self.geometry[a]), 14)
+        numbers, _ = shortened(
+            less(self.geometry[b], self.geometry[a]) + less(self.geometry[w], self.geometry[a]), 14
+        )
         p, q = numbers[:3], numbers[3:]
         if not any(p):
             return None
         r, square = math.isqrt(dot(cross(p, q), cross(p, q))), dot(p, p)
         along = clamp(div(65536 * dot(p, q), square), -(1 << 19), 1 << 19)
-        return along, clamp(65536 * r // square, 0, 1 << 19), clamp(256 * square // (r + 1), 1, 1 << 16)
+        return (
+            along,
+            clamp(65536 * r // square, 0, 1 << 19),
+            clamp(256 * square // (r + 1), 1, 1 << 16),
+        )
 
     def claim(self, v, a, b, c):  # A 5.3
         x = self.values
@@ -242,7 +279,10 @@ class Rows:  # A 9: of one group of components
             self.surface[v] = self.directions.scaled(mean)
         a, drift = self.surface[v], [0, 0, 0]
         if ends:
-            drift = [rounded(sum(self.own[u][i] - self.surface[u][i] for u in ends), len(ends)) for i in range(3)]
+            drift = [
+                rounded(sum(self.own[u][i] - self.surface[u][i] for u in ends), len(ends))
+                for i in range(3)
+            ]
         return a, [p + q for p, q in zip(a, drift)], mean
 
 
@@ -269,7 +309,9 @@ def tangents(faces, bases, at, coordinates, normals, largest, words):
     of_normals = [[0.0, 0.0, 1.0] for _ in words]
     seen = set()
     for rows, of_normal, of_coordinates in zip(faces, *bases):
-        h, gradient = gradient_of([at[row] for row in rows], [coordinates[row] for row in of_coordinates])
+        h, gradient = gradient_of(
+            [at[row] for row in rows], [coordinates[row] for row in of_coordinates]
+        )
         for row, normal in zip(rows, of_normal):
             if row not in seen:
                 seen.add(row)
@@ -277,7 +319,10 @@ def tangents(faces, bases, at, coordinates, normals, largest, words):
             turned[row] += h
             gradients[row] = plus(gradients[row], gradient)
     k = largest // 4
-    return [tangent(k, *row) for row in zip(gradients, [1.0 if h >= 0 else -1.0 for h in turned], of_normals, words)]
+    return [
+        tangent(k, *row)
+        for row in zip(gradients, [1.0 if h >= 0 else -1.0 for h in turned], of_normals, words)
+    ]
 
 
 def gradient_of(at, words):  # A 9.9: H, and G over its length
@@ -300,4 +345,7 @@ def tangent(k, s, hand, n, word):
     b = cross(n, g)
     t = word[0] - 2 * k
     p, q = k - abs(t), sign(t) * min(abs(t), 2 * k - abs(t))
-    return [*of_length_1([p * along + q * aside for along, aside in zip(g, b)]), -hand if word[1] else hand]
+    return [
+        *of_length_1([p * along + q * aside for along, aside in zip(g, b)]),
+        -hand if word[1] else hand,
+    ]

@@ -10,7 +10,9 @@ from pathlib import Path
 import pytest
 
 HERE = Path(__file__).resolve().parent
-LACKING = re.compile(r"module '(os|signal)' has|privilege|platform \w+ is not|(named '|of )(fcntl|resource|termios)\b")
+LACKING = re.compile(
+    r"module '(os|signal)' has|privilege|platform \w+ is not|(named '|of )(fcntl|resource|termios)\b"
+)
 
 
 def pytest_configure(config: pytest.Config) -> None:
@@ -18,7 +20,9 @@ def pytest_configure(config: pytest.Config) -> None:
     # What a shell runs in the background passes on that it ignores them.
     for number in (signal.SIGINT, signal.SIGTERM, getattr(signal, "SIGHUP", signal.SIGTERM)):
         if signal.getsignal(number) == signal.SIG_IGN:
-            signal.signal(number, signal.default_int_handler if number == signal.SIGINT else signal.SIG_DFL)
+            signal.signal(
+                number, signal.default_int_handler if number == signal.SIGINT else signal.SIG_DFL
+            )
     # How long an example takes says how busy the machine is; half as many as usual are enough every time.
     if config.pluginmanager.hasplugin("hypothesispytest"):
         from hypothesis import settings
@@ -34,8 +38,13 @@ def pytest_runtest_call(item: pytest.Item) -> Generator[None, None, None]:
     try:
         yield
     except (AttributeError, ImportError, NotImplementedError, OSError) as error:
-        modules = [frame.f_globals.get("__name__", "") for frame, _ in traceback.walk_tb(error.__traceback__)]
-        if not LACKING.search(str(error)) or any(name.partition(".")[0] == "bsm" for name in modules):
+        modules = [
+            frame.f_globals.get("__name__", "")
+            for frame, _ in traceback.walk_tb(error.__traceback__)
+        ]
+        if not LACKING.search(str(error)) or any(
+            name.partition(".")[0] == "bsm" for name in modules
+        ):
             raise
         pytest.skip(f"not on this system: {error}")
 

@@ -40,7 +40,9 @@ class Built:
         self.data = b""
 
     def view(self, data: bytes, **more: Any) -> int:
-        self.tree["bufferViews"].append({"buffer": 0, "byteOffset": len(self.data), "byteLength": len(data), **more})
+        self.tree["bufferViews"].append(
+            {"buffer": 0, "byteOffset": len(self.data), "byteLength": len(data), **more}
+        )
         self.data += data + b"\0" * (-len(data) % 4)
         return len(self.tree["bufferViews"]) - 1
 
@@ -55,7 +57,9 @@ class Built:
             "count": len(values),
             "type": TYPES[values.shape[1]],
         }
-        self.tree["accessors"].append({"bufferView": self.view(padded.tobytes(), **stride), **accessor, **more})
+        self.tree["accessors"].append(
+            {"bufferView": self.view(padded.tobytes(), **stride), **accessor, **more}
+        )
         return len(self.tree["accessors"]) - 1
 
     def mesh(self, *primitives: Tree, **more: Any) -> int:
@@ -63,7 +67,11 @@ class Built:
         return len(self.tree["meshes"]) - 1
 
     def nodes(self, *nodes: Tree) -> "Built":
-        self.tree |= {"nodes": list(nodes), "scenes": [{"nodes": list(range(len(nodes)))}], "scene": 0}
+        self.tree |= {
+            "nodes": list(nodes),
+            "scenes": [{"nodes": list(range(len(nodes)))}],
+            "scene": 0,
+        }
         return self
 
     @property
@@ -85,9 +93,16 @@ def picture() -> bytes:
 
 def scene() -> Built:
     """Two instances of a skinned and textured torus, a morphing one, an animation, and materials with extensions."""
-    mesh, built = torus(40, 24), Built(extensionsUsed=["KHR_texture_transform", "KHR_materials_sheen"])
+    mesh, built = (
+        torus(40, 24),
+        Built(extensionsUsed=["KHR_texture_transform", "KHR_materials_sheen"]),
+    )
     across = (mesh.positions - mesh.positions.min(axis=0)) / np.ptp(mesh.positions, axis=0)
-    count, points, corners = len(mesh.positions), mesh.positions.astype(np.float32), mesh.faces.astype(np.uint16)
+    count, points, corners = (
+        len(mesh.positions),
+        mesh.positions.astype(np.float32),
+        mesh.faces.astype(np.uint16),
+    )
     weights = np.zeros((count, 4), np.float32)
     weights[:, 0], weights[:, 1] = across[:, 0], 1 - across[:, 0]
     skinned = {
@@ -97,8 +112,14 @@ def scene() -> Built:
         "WEIGHTS_0": built.array(weights),
     }
     index = built.array(corners.ravel())
-    moved, target = built.array(points + 1, min=[-1, -1, -1], max=[3, 3, 3]), np.full((count, 3), 0.25, np.float32)
-    morphing: Tree = {"attributes": {"POSITION": moved}, "targets": [{"POSITION": built.array(target)}]}
+    moved, target = (
+        built.array(points + 1, min=[-1, -1, -1], max=[3, 3, 3]),
+        np.full((count, 3), 0.25, np.float32),
+    )
+    morphing: Tree = {
+        "attributes": {"POSITION": moved},
+        "targets": [{"POSITION": built.array(target)}],
+    }
     matrices = built.array(np.tile(np.eye(4, dtype=np.float32).reshape(1, 16), (2, 1)))
     times = built.array(np.array([0, 1], np.float32), min=[0], max=[1])
     sampler = {"input": times, "output": built.array(np.array([[0, 0, 0], [1, 2, 3]], np.float32))}
@@ -109,13 +130,21 @@ def scene() -> Built:
     built.mesh({"attributes": skinned, "indices": index, "material": 0})
     built.mesh(morphing)
     placed = {"mesh": 0, "skin": 0}
-    built.nodes(placed, {**placed, "translation": [3, 0, 0]}, {"mesh": 1, "name": "morphing"}, {"children": [4]}, {})
+    built.nodes(
+        placed,
+        {**placed, "translation": [3, 0, 0]},
+        {"mesh": 1, "name": "morphing"},
+        {"children": [4]},
+        {},
+    )
     built.tree["scenes"][0]["nodes"].remove(4)
     channel = {"sampler": 0, "target": {"node": 1, "path": "translation"}}
     built.tree |= {
         "skins": [{"joints": [3, 4], "inverseBindMatrices": matrices}],
         "animations": [{"samplers": [sampler], "channels": [channel]}],
-        "materials": [{"pbrMetallicRoughness": {"baseColorTexture": textured}, "extensions": sheen}],
+        "materials": [
+            {"pbrMetallicRoughness": {"baseColorTexture": textured}, "extensions": sheen}
+        ],
         "textures": [{"source": 0}],
         "images": [{"bufferView": image, "mimeType": "image/png"}],
     }

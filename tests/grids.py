@@ -21,7 +21,9 @@ def grid(
     of_cells: Mapping[str, Any] | None = None,
 ) -> Any:
     """An unstructured grid of cells, each with its type in VTK and its points."""
-    model = pytest.importorskip("vtkmodules.vtkCommonDataModel", reason="needs the extra simulation")
+    model = pytest.importorskip(
+        "vtkmodules.vtkCommonDataModel", reason="needs the extra simulation"
+    )
     core = pytest.importorskip("vtkmodules.vtkCommonCore")
     support = pytest.importorskip("vtkmodules.util.numpy_support")
     found, places = model.vtkUnstructuredGrid(), core.vtkPoints()
@@ -46,5 +48,7 @@ def save(path: Path, data: Any) -> None:
     assert one.Write()
 
 
-def save_grid(path: Path, points: Any, cells: Iterable[tuple[int, Any]], *arrays: Mapping[str, Any]) -> None:
+def save_grid(
+    path: Path, points: Any, cells: Iterable[tuple[int, Any]], *arrays: Mapping[str, Any]
+) -> None:
     save(path, grid(points, cells, *arrays))

@@ -22,7 +22,9 @@ def bending(frames: int, rows: int = 30, columns: int = 16) -> tuple[np.ndarray,
     for t in np.arange(frames) / 12:
         c, s = np.cos(t), np.sin(t)
         wave = 0.1 * np.sin(3 * x + 2 * t)
-        result.append(np.stack([c * x - s * y, (s * x + c * y) * (1 + 0.2 * np.sin(t)), z + wave], axis=1))
+        result.append(
+            np.stack([c * x - s * y, (s * x + c * y) * (1 + 0.2 * np.sin(t)), z + wave], axis=1)
+        )
     return np.array(result), mesh.faces
 
 
@@ -35,12 +37,18 @@ def sequence_in(
     **wanted: Any,
 ) -> Frames | None:
     """The sequence that commands read of a source."""
-    return open_sequence(source, file_format, Wanted(**wanted), limits or Limits(), isolated=isolated)
+    return open_sequence(
+        source, file_format, Wanted(**wanted), limits or Limits(), isolated=isolated
+    )
 
 
-def save_frames(path: Path, kind: str, positions: np.ndarray, faces: np.ndarray, shared: Shared | None = None) -> None:
+def save_frames(
+    path: Path, kind: str, positions: np.ndarray, faces: np.ndarray, shared: Shared | None = None
+) -> None:
     """Write the frames of a sequence in the file or files of some program."""
-    with sequence_writer(str(path), kind, faces, len(positions), overwrite=True, shared=shared) as write:
+    with sequence_writer(
+        str(path), kind, faces, len(positions), overwrite=True, shared=shared
+    ) as write:
         for frame in positions:
             write(frame)
 
@@ -49,7 +57,9 @@ def capture(*pieces: tuple[int, int]) -> list[TriangleMesh]:
     """Tori of several sizes that move: so many frames of each."""
     sizes = [size for size, count in pieces for _ in range(count)]
     meshes = [vectors.torus(size, 6, phase=0.15 * t) for t, size in enumerate(sizes)]
-    return [replace(mesh, positions=mesh.positions * (1 + 0.01 * t)) for t, mesh in enumerate(meshes)]
+    return [
+        replace(mesh, positions=mesh.positions * (1 + 0.01 * t)) for t, mesh in enumerate(meshes)
+    ]
 
 
 def turning(frames: int) -> tuple[np.ndarray, np.ndarray]:
@@ -57,7 +67,10 @@ def turning(frames: int) -> tuple[np.ndarray, np.ndarray]:
     mesh = torus(30, 16)
     x, y, z = mesh.positions.T
     angles = np.arange(frames) / 7
-    turned = [np.stack([np.cos(t) * x - np.sin(t) * z + t, y, np.sin(t) * x + np.cos(t) * z], axis=1) for t in angles]
+    turned = [
+        np.stack([np.cos(t) * x - np.sin(t) * z + t, y, np.sin(t) * x + np.cos(t) * z], axis=1)
+        for t in angles
+    ]
     return np.array(turned), mesh.faces
 
 
@@ -69,7 +82,12 @@ def animators_own(folder: Path, frames: int = 24, loose: int = 3) -> np.ndarray:
     for copy in range(5):
         faces[tuple(np.argwhere(faces == copy)[0])] = positions.shape[1] + copy
     positions = np.concatenate([positions, positions[:, :5], 1.5 * positions[:, :loose]], axis=1)
-    lines = [*(f"v {x!r} {y!r} {z!r}" for x, y, z in positions[0].tolist()), "vt 0 0", "vt 1 0", "vt 0 1"]
+    lines = [
+        *(f"v {x!r} {y!r} {z!r}" for x, y, z in positions[0].tolist()),
+        "vt 0 0",
+        "vt 1 0",
+        "vt 0 1",
+    ]
     lines += [f"f {a}/1 {b}/2 {c}/3" for a, b, c in (faces + 1).tolist()]
     (folder / "rig.obj").write_text("\n".join(lines))
     for kind in ("pc2", "mdd"):

@@ -11,14 +11,17 @@ from bsm.codec.geometry.metrics import Reference
 from bsm.evaluation.sample import knot
 from tools.vectors.meshes import grid_faces, patch, tetrahedron, together, torus
 
-__all__ = ["grid_faces", "knot", "patch", "tetrahedron", "together", "torus"]  # names of other modules, for tests
+# Names of other modules, for tests.
+__all__ = ["grid_faces", "knot", "patch", "tetrahedron", "together", "torus"]
 Faces = NDArray[np.int32]
 
 
 def curved(mesh: TriangleMesh) -> TriangleMesh:
     """With every line of vertices drawn out of line, so that no grid suits it."""
     p = mesh.positions
-    return TriangleMesh(p + 0.05 * np.sin(3.0 * p[:, [1, 2, 0]] + 1.0) + 0.03 * np.sin(5.0 * p), mesh.faces)
+    return TriangleMesh(
+        p + 0.05 * np.sin(3.0 * p[:, [1, 2, 0]] + 1.0) + 0.03 * np.sin(5.0 * p), mesh.faces
+    )
 
 
 def ply_head(
@@ -45,7 +48,9 @@ def at_corners(mesh: TriangleMesh, attribute: Attribute) -> NDArray[Any]:
 
 def soup(mesh: TriangleMesh) -> TriangleMesh:
     """Every face with vertices of its own."""
-    return TriangleMesh(mesh.positions[mesh.faces].reshape(-1, 3), np.arange(mesh.faces.size).reshape(-1, 3))
+    return TriangleMesh(
+        mesh.positions[mesh.faces].reshape(-1, 3), np.arange(mesh.faces.size).reshape(-1, 3)
+    )
 
 
 def boxes(*places: tuple[int, int, int]) -> TriangleMesh:
@@ -53,7 +58,9 @@ def boxes(*places: tuple[int, int, int]) -> TriangleMesh:
     faces = np.array([[1, 3, 0], [4, 1, 0], [0, 3, 2], [2, 4, 0], [1, 7, 3], [5, 1, 4],
                       [5, 7, 1], [3, 7, 2], [6, 4, 2], [2, 7, 6], [6, 5, 4], [7, 5, 6]])  # fmt: skip
     corners = np.add(list(np.ndindex(2, 2, 2)), np.array(places)[:, None])
-    return TriangleMesh(corners.reshape(-1, 3), np.concatenate([faces + 8 * k for k in range(len(places))]))
+    return TriangleMesh(
+        corners.reshape(-1, 3), np.concatenate([faces + 8 * k for k in range(len(places))])
+    )
 
 
 def turned(random: np.random.Generator) -> TriangleMesh:
@@ -65,9 +72,16 @@ def turned(random: np.random.Generator) -> TriangleMesh:
     joined = bool(random.integers(2))
     angles = 2.0 * np.pi * (np.arange(around if joined else around + 1) % around) / around
     circle = np.column_stack([np.cos(angles), np.sin(angles)])
-    flat = np.concatenate([np.column_stack([radius * circle, np.full(len(angles), z)]) for radius, z in zip(radii, up)])
+    flat = np.concatenate(
+        [
+            np.column_stack([radius * circle, np.full(len(angles), z)])
+            for radius, z in zip(radii, up)
+        ]
+    )
     height = random.choice([0.2, 1.0, 3.0])
-    positions = flat * (1.0, 1.0, height) * 10.0 ** random.integers(-3, 4) + random.choice([0.0, 7.0])
+    positions = flat * (1.0, 1.0, height) * 10.0 ** random.integers(-3, 4) + random.choice(
+        [0.0, 7.0]
+    )
     faces = grid_faces(rows + 1, len(angles), (False, joined))
     if random.integers(2):  # a face without area, which reaches far
         positions = np.vstack([positions, positions.max(axis=0) * 3.0])
@@ -90,7 +104,9 @@ def in_rows(kind: str, random: np.random.Generator) -> TriangleMesh:
     """A mesh whose vertices are in rows and columns: a wave, a noisy plane, a long strip, or a tray of two sheets."""
     rows, columns = {"wave": (90, 90), "noisy": (60, 50), "strip": (4, 600), "tray": (34, 26)}[kind]
     spacing = random.uniform(0.01, 3.0)
-    i, j = (axis.ravel() for axis in np.meshgrid(np.arange(rows), np.arange(columns), indexing="ij"))
+    i, j = (
+        axis.ravel() for axis in np.meshgrid(np.arange(rows), np.arange(columns), indexing="ij")
+    )
     phase, faces = random.uniform(0.0, 6.0), grid_faces(rows, columns)
     if kind == "wave":
         heights = 4.0 * np.sin(0.08 * i + phase) + 3.0 * np.cos(0.11 * j)
@@ -106,7 +122,9 @@ def in_rows(kind: str, random: np.random.Generator) -> TriangleMesh:
     if kind != "tray":
         return TriangleMesh(top, faces)
     below = top - spacing * np.array([0.0, 0.0, 0.6])
-    return TriangleMesh(np.vstack([top, below]), np.vstack([faces, faces[:, ::-1] + len(top)]).astype(np.int32))
+    return TriangleMesh(
+        np.vstack([top, below]), np.vstack([faces, faces[:, ::-1] + len(top)]).astype(np.int32)
+    )
 
 
 def file_of(mesh: TriangleMesh, kind: str) -> bytes:

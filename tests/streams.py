@@ -29,7 +29,9 @@ def events_of(data: bytes, pieces: Sequence[bytes] | None = None, **options: Any
         return list(all_events(decoder, pieces or [data]))
 
 
-def moving_events_of(data: bytes, pieces: Sequence[bytes] | None = None, **options: Any) -> list[Any]:
+def moving_events_of(
+    data: bytes, pieces: Sequence[bytes] | None = None, **options: Any
+) -> list[Any]:
     """Everything that a decoder says of a sequence, which comes in pieces."""
     with SequenceDecoder(**{"threads": 1, **options}) as decoder:
         return list(all_events(decoder, pieces or [data]))
@@ -54,7 +56,11 @@ def frames_in(events: Sequence[Any]) -> dict[int, FrameEvent]:
 
 def packets_of(data: bytes, kind: type = object) -> list[tuple[Any, int, int]]:
     """The packets of a kind in a stream, with offset and length of the frame of each."""
-    return [(packet, span.offset, span.length) for packet, span in scan(data) if isinstance(packet, kind)]
+    return [
+        (packet, span.offset, span.length)
+        for packet, span in scan(data)
+        if isinstance(packet, kind)
+    ]
 
 
 def frame_ends(data: bytes) -> list[int]:

@@ -24,7 +24,8 @@ KNOW_BYTES = tuple(
     )
 )
 KNOWN_TO_ALL = tuple(
-    f"bsm.bitstream.{name}" for name in ("errors", "limits", "once", "kernel", "context", "costs", "trellis")
+    f"bsm.bitstream.{name}"
+    for name in ("errors", "limits", "once", "kernel", "context", "costs", "trellis")
 )
 FLOORS = {
     "bsm": (
@@ -93,8 +94,21 @@ BITSTREAM_LIBRARIES = {"numpy", "msgpack", "zstandard"}
 # The kernels of `bitstream`, writers that it calls, and the words of the public header: statuses, limits, memory.
 OF_BYTES = ("bsm._core.bitstream", "bsm._core.GivenMesh", "library.bsmdec")
 # What encoders call of the library.
-OF_ENCODERS = ("Chain", "Cut", "Field", "GivenMesh", "Track", "gop_memory", "rounded", "turned_tangents")
-CODEC_LIBRARIES = {"numpy": "bsm.codec", "scipy": "bsm.codec.denoise", "pymetis": "bsm.codec.blocks.overlap"}
+OF_ENCODERS = (
+    "Chain",
+    "Cut",
+    "Field",
+    "GivenMesh",
+    "Track",
+    "gop_memory",
+    "rounded",
+    "turned_tangents",
+)
+CODEC_LIBRARIES = {
+    "numpy": "bsm.codec",
+    "scipy": "bsm.codec.denoise",
+    "pymetis": "bsm.codec.blocks.overlap",
+}
 
 
 # Where each room is, and the name that it is imported by.
@@ -122,13 +136,18 @@ MODULES = {
     module_name(path, folder): path
     for folder in FOLDERS
     for path in (ROOT / folder).rglob("*.py")
-    if not folder.startswith("src") or not {"codec", "bitstream"} & set(path.relative_to(ROOT / folder).parts[:1])
+    if not folder.startswith("src")
+    or not {"codec", "bitstream"} & set(path.relative_to(ROOT / folder).parts[:1])
 }
 
 
 def sources(*endings: str) -> dict[Path, str]:
     """The texts of the C of rooms; a file and its header are one module, and so are those of a level of processors."""
-    paths = (path for folder in ("bitstream", "codec", "src/bsm", "library") for path in (ROOT / folder).rglob("*"))
+    paths = (
+        path
+        for folder in ("bitstream", "codec", "src/bsm", "library")
+        for path in (ROOT / folder).rglob("*")
+    )
     left_out = ("examples", "rust", "include", "codec", "bitstream")
     return {
         path: re.sub(r"/\*.*?\*/", "", path.read_text(encoding="utf-8"), flags=re.DOTALL)
@@ -166,7 +185,9 @@ def words(path: Path) -> set[str]:
 def defined(path: Path) -> list[str]:
     """The functions of a C file that others may call."""
     kinds = r"(?!static|typedef|return|else|INLINE|SHARED|KERNEL static|OFTEN static)(?:\w+[ *]+)+"
-    return re.findall(rf"^{kinds}(?:ISA\()?(\w+)\)?\([^;{{}}]*\)\s*\{{", SOURCES[path], re.MULTILINE)
+    return re.findall(
+        rf"^{kinds}(?:ISA\()?(\w+)\)?\([^;{{}}]*\)\s*\{{", SOURCES[path], re.MULTILINE
+    )
 
 
 def arrows_of_c() -> dict[str, set[str]]:
@@ -188,18 +209,23 @@ def arrows_of_python() -> dict[str, set[str]]:
     arrows = {}
     for name, path in MODULES.items():
         steps = (item.split(".") for item in imports(path.read_text()))
-        found = {".".join(parts[:count]) for parts in steps for count in (len(parts), len(parts) - 1)} & MODULES.keys()
+        found = {
+            ".".join(parts[:count]) for parts in steps for count in (len(parts), len(parts) - 1)
+        } & MODULES.keys()
         arrows[name] = {item for item in found if not f"{name}.".startswith(f"{item}.")}
     return arrows
 
 
 def arrows_of_typescript() -> dict[str, set[str]]:
     """What each module of TypeScript imports of others, types too."""
-    files = {path.relative_to(WEB).with_suffix("").as_posix(): path for path in sorted(WEB.rglob("*.ts"))}
+    files = {
+        path.relative_to(WEB).with_suffix("").as_posix(): path for path in sorted(WEB.rglob("*.ts"))
+    }
     pattern = r"""(?:from|import)\s*\(?\s*["'](\.[^"']+)["']"""
     return {
         name: {
-            (path.parent / item).resolve().relative_to(WEB).as_posix() for item in re.findall(pattern, path.read_text())
+            (path.parent / item).resolve().relative_to(WEB).as_posix()
+            for item in re.findall(pattern, path.read_text())
         }
         & files.keys()
         for name, path in files.items()
@@ -217,7 +243,11 @@ def circle_in(arrows: dict[str, set[str]]) -> list[str]:
 
 def room_of(name: str) -> str:
     """The room that a module stands in; of a library, its name."""
-    return max((room for room in ROOMS if f"{name}.".startswith(f"{room}.")), key=len, default=name.split(".")[0])
+    return max(
+        (room for room in ROOMS if f"{name}.".startswith(f"{room}.")),
+        key=len,
+        default=name.split(".")[0],
+    )
 
 
 @cache
@@ -241,7 +271,12 @@ def floor(name: str, package: str) -> tuple[int, str]:
     """On which floor of a package a module stands, and in which room of it."""
     rest = name.split(".")[len(package.split(".")) :]
     nouns = {rest[0], ".".join(rest[:2])} if rest else set()
-    found = ((level, room) for level, rooms in enumerate(FLOORS[package]) for room in rooms if room in nouns)
+    found = (
+        (level, room)
+        for level, rooms in enumerate(FLOORS[package])
+        for room in rooms
+        if room in nouns
+    )
     return next(found, (len(FLOORS[package]), ""))
 
 
@@ -272,14 +307,17 @@ def allowed(importer: str, imported: str) -> bool:
             return of_encoders or importer == "bsm.codec.decoding"
         if library == "bsm.bitstream":
             return importer.startswith(KNOW_BYTES) or imported.startswith(KNOWN_TO_ALL)
-        return library in CODEC_LIBRARIES and f"{importer}.".startswith(f"{CODEC_LIBRARIES[library]}.")
+        return library in CODEC_LIBRARIES and f"{importer}.".startswith(
+            f"{CODEC_LIBRARIES[library]}."
+        )
     if room == "spec":
         return library not in ROOMS
     if room == "library":
         return library in ("bsm.bitstream", "bsm.codec")
     if room == "bsm":
         return library not in ("tools", "plugins", "tests", "spec") and not imported.startswith(".")
-    return not imported.startswith(".") or importer == "plugins.blender.extension"  # which Blender names as it likes
+    # Which Blender names as it likes.
+    return not imported.startswith(".") or importer == "plugins.blender.extension"
 
 
 def test_imports_and_includes_follow_the_arrows():
@@ -293,7 +331,10 @@ def test_imports_and_includes_follow_the_arrows():
     ("importer", "source"),
     [
         ("bsm.bitstream.container.wire", "def f():\n    import bsm.codec.geometry.mesh"),
-        ("bsm.bitstream.entropy.coder", "from bsm.bitstream.connectivity.faces import encode_connectivity"),
+        (
+            "bsm.bitstream.entropy.coder",
+            "from bsm.bitstream.connectivity.faces import encode_connectivity",
+        ),
         ("bsm.codec.geometry.mesh", "from bsm.bitstream.container import packets"),
         ("bsm.codec.blocks.overlap", "from bsm.bitstream.container.header import Header"),
         ("bsm.codec.static.encoder", "from bsm._core import Decoder"),
@@ -325,17 +366,32 @@ def test_circles_are_found(monkeypatch):
     monkeypatch.undo()
     monkeypatch.setitem(SOURCES, context, SOURCES[context] + call)
     assert not circle_in(arrows_of_c())  # what no header declares is another function
-    monkeypatch.setitem(SOURCES, context, f'{SOURCES[context]}#include "bitstream/container/container.h"\n')
+    monkeypatch.setitem(
+        SOURCES, context, f'{SOURCES[context]}#include "bitstream/container/container.h"\n'
+    )
     assert circle_in(arrows_of_c())
 
 
-PRODUCT = [path for path in MODULES.values() if path.parts[len(ROOT.parts)] not in ("tools", "plugins", "spec")]
+PRODUCT = [
+    path
+    for path in MODULES.values()
+    if path.parts[len(ROOT.parts)] not in ("tools", "plugins", "spec")
+]
 
 
 def test_no_class_name_stands_twice():
-    of_c, of_typescript = r"^(?:\} |class )(\w+)(?:;| :)", r"^(?:export )?(?:class|interface|type) (\w+)"
-    for files, pattern in ((PRODUCT, r"^class (\w+)"), (SOURCES, of_c), (WEB.rglob("*.ts"), of_typescript)):
-        names = Counter(name for path in files for name in re.findall(pattern, path.read_text(), re.MULTILINE))
+    of_c, of_typescript = (
+        r"^(?:\} |class )(\w+)(?:;| :)",
+        r"^(?:export )?(?:class|interface|type) (\w+)",
+    )
+    for files, pattern in (
+        (PRODUCT, r"^class (\w+)"),
+        (SOURCES, of_c),
+        (WEB.rglob("*.ts"), of_typescript),
+    ):
+        names = Counter(
+            name for path in files for name in re.findall(pattern, path.read_text(), re.MULTILINE)
+        )
         assert len(names) > 99 and not [name for name, count in names.items() if count > 1]
 
 
@@ -345,7 +401,11 @@ def prose(path: Path) -> str:
     if path.suffix != ".py":
         return "".join(re.findall(r"/\*.*?\*/|//[^\n]*", text, re.DOTALL))
     tokens = list(tokenize.generate_tokens(io.StringIO(text).readline))
-    return "".join(token.string for token in tokens if token.type == tokenize.COMMENT or token.string.startswith('"""'))
+    return "".join(
+        token.string
+        for token in tokens
+        if token.type == tokenize.COMMENT or token.string.startswith('"""')
+    )
 
 
 def test_comments_name_files_that_are_there():
@@ -353,23 +413,33 @@ def test_comments_name_files_that_are_there():
     files = [path.relative_to(ROOT) for path in (*PRODUCT, *SOURCES, *WEB.rglob("*.ts"))]
     wrong = []
     for file in files:
-        for name in re.findall(r"(?<![\w/.<*-])(?:\w+/)*\w[\w.]*\.(?:py|c|h|ts|md)\b(?![\w(/*.])", prose(ROOT / file)):
+        for name in re.findall(
+            r"(?<![\w/.<*-])(?:\w+/)*\w[\w.]*\.(?:py|c|h|ts|md)\b(?![\w(/*.])", prose(ROOT / file)
+        ):
             beside = any((ROOT / folder / name).is_file() for folder in file.parents)
-            if not beside and not ("/" in name and any(f"/{other}".endswith(f"/{name}") for other in files)):
+            if not beside and not (
+                "/" in name and any(f"/{other}".endswith(f"/{name}") for other in files)
+            ):
                 wrong.append(f"{file}: {name}")
     assert not wrong
 
 
 def test_headers_without_a_source_have_names_of_their_own():
     """A reader takes `x.h` for the header of `x.c`, wherever that is."""
-    headers = [path for path in SOURCES if path.suffix == ".h" and not any(path.parent.glob(f"{path.stem}.*c*"))]
+    headers = [
+        path
+        for path in SOURCES
+        if path.suffix == ".h" and not any(path.parent.glob(f"{path.stem}.*c*"))
+    ]
     others = {path.stem.split(".")[0] for path in SOURCES if path.suffix in (".c", ".cpp")}
     assert not [str(path.relative_to(ROOT)) for path in headers if path.stem in others]
 
 
 def test_nothing_escapes():
     assert {"bsm.bitstream.container.wire", "bsm.codec.geometry.mesh", "tools"} <= set(MODULES)
-    assert {"library.stages", "library.python.binding", "bsm.codec.basis.cosines"} <= set(map(c_name, SOURCES))
+    assert {"library.stages", "library.python.binding", "bsm.codec.basis.cosines"} <= set(
+        map(c_name, SOURCES)
+    )
     assert {"engine", "viewer/view"} <= arrows_of_typescript().keys()
 
 
@@ -394,13 +464,18 @@ def test_the_map_has_the_rooms_and_floors_of_the_tree(folder):
     package = FOLDERS[folder]
     assert rooms_in(folder) <= {name for names in floors for name in names}
     levels = [{floor(f"{package}.{name}", package)[0] for name in names} for names in floors]
-    assert max(level for each in levels for level in each) < len(FLOORS[package]), "a room that is on no floor"
+    assert max(level for each in levels for level in each) < len(FLOORS[package]), (
+        "a room that is on no floor"
+    )
     assert all(max(below) < min(above) for below, above in pairwise(levels))
 
 
 def test_the_rooms_of_the_encoder_are_those_of_the_tree():
     folder = ROOT / "codec/static"
-    cells = [re.findall(r"`(?:static/)?(\w+)[./]", row[0]) for row in rows_of_map("The rooms of `codec/static/`")]
+    cells = [
+        re.findall(r"`(?:static/)?(\w+)[./]", row[0])
+        for row in rows_of_map("The rooms of `codec/static/`")
+    ]
     names = [name for names in cells for name in names]
     files = {path.stem for path in folder.glob("*.py") if path.stem != "__init__"}
     assert sorted(names) == sorted(rooms_in("codec/static") | files)
@@ -418,7 +493,11 @@ def is_defined(name: str) -> bool:
         return bool(module)
     source = MODULES[module].read_text(encoding="utf-8") if module else ""
     first, *inside = rest.split(".")
-    begins = rf'["\s]{first}["\s]' if module == "bsm" else rf"^(?:def |class |from .* import .*\b)?{first}\b"
+    begins = (
+        rf'["\s]{first}["\s]'
+        if module == "bsm"
+        else rf"^(?:def |class |from .* import .*\b)?{first}\b"
+    )
     return bool(re.search(begins, source, re.MULTILINE)) and all(part in source for part in inside)
 
 
@@ -437,7 +516,9 @@ def test_docstrings_name_what_there_is():
     for name, path in MODULES.items():
         tree = ast.parse(path.read_text(encoding="utf-8"))
         kinds = (ast.Module, ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef)
-        texts = [ast.get_docstring(node) or "" for node in ast.walk(tree) if isinstance(node, kinds)]
+        texts = [
+            ast.get_docstring(node) or "" for node in ast.walk(tree) if isinstance(node, kinds)
+        ]
         if names := unknown_names("\n".join(texts)):
             wrong[name] = names
     assert not wrong

@@ -25,15 +25,30 @@ def checkout(tmp_path_factory):
         pytest.skip("no git here")
     pytest.importorskip("scikit_build_core")
     folder = tmp_path_factory.mktemp("clone") / "bsm"
-    subprocess.run(["git", "clone", "-q", "--shared", "-c", "core.symlinks=false", ROOT, folder], check=True)
+    subprocess.run(
+        ["git", "clone", "-q", "--shared", "-c", "core.symlinks=false", ROOT, folder], check=True
+    )
     assert not [path for path in folder.rglob("*") if path.is_symlink()]
     return folder
 
 
 def wheel_of(checkout, output, *settings):
     given = [word for setting in settings for word in ("-C", setting)]
-    command = [sys.executable, "-m", "pip", "wheel", "-q", "--no-build-isolation", "--no-deps", *given, "-w", output]
-    subprocess.run([*command, checkout], check=True, env={**os.environ, "SOURCE_DATE_EPOCH": "1700000000"})
+    command = [
+        sys.executable,
+        "-m",
+        "pip",
+        "wheel",
+        "-q",
+        "--no-build-isolation",
+        "--no-deps",
+        *given,
+        "-w",
+        output,
+    ]
+    subprocess.run(
+        [*command, checkout], check=True, env={**os.environ, "SOURCE_DATE_EPOCH": "1700000000"}
+    )
     (wheel,) = output.iterdir()
     return wheel
 
@@ -50,11 +65,15 @@ def python(package, *words):
     paths = [str(package), *(sysconfig.get_path(name) for name in ("purelib", "platlib"))]
     code = f"import sys; sys.path[:0] = {paths!r}; import runpy; sys.argv = {list(map(str, words))!r}; "
     code += "runpy.run_module('bsm', run_name='__main__', alter_sys=False)"
-    return subprocess.run([sys.executable, "-S", "-c", code], check=False, capture_output=True, text=True)
+    return subprocess.run(
+        [sys.executable, "-S", "-c", code], check=False, capture_output=True, text=True
+    )
 
 
 def check_package(package, tmp_path):
-    (tmp_path / "a.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n")
+    (tmp_path / "a.obj").write_text(
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n"
+    )
     for words in (
         ("encode", tmp_path / "a.obj", "-o", tmp_path / "a.bsm"),
         ("view", tmp_path / "a.obj", "--save", tmp_path / "page.html"),
@@ -69,14 +88,20 @@ def check_package(package, tmp_path):
 
 
 def test_a_checkout_without_links_is_installed_and_viewed(checkout, tmp_path):
-    wheel, again = (wheel_of(checkout, tmp_path / name, *WITHOUT_CMAKE) for name in ("wheel", "again"))
+    wheel, again = (
+        wheel_of(checkout, tmp_path / name, *WITHOUT_CMAKE) for name in ("wheel", "again")
+    )
     assert wheel.read_bytes() == again.read_bytes()
     package = installed(wheel, tmp_path / "package")
     built = {path.name for path in (package / "bsm" / "viewer" / "built").iterdir()}
     assert built == {"encode.wasm", "encode-moving.wasm", "grid.wasm", "kernels.wasm"}
     assert not list(package.rglob("*.[ch]"))
-    licenses = "".join(path.read_text("utf-8") for path in package.glob("*.dist-info/licenses/**/*.txt"))
-    assert all(words in licenses for words in ("three.js authors", "Wenzel Jakob", "Thibaut Goetghebuer"))
+    licenses = "".join(
+        path.read_text("utf-8") for path in package.glob("*.dist-info/licenses/**/*.txt")
+    )
+    assert all(
+        words in licenses for words in ("three.js authors", "Wenzel Jakob", "Thibaut Goetghebuer")
+    )
     shutil.copy(bsm._core.__file__, package / "bsm")
     check_package(package, tmp_path)
 
@@ -85,7 +110,9 @@ def test_the_source_distribution_has_each_file_once_and_the_same_bytes_again(tmp
     pytest.importorskip("scikit_build_core")
     made = []
     for name in ("one", "two"):
-        code = f"import scikit_build_core.build as build; build.build_sdist({str(tmp_path / name)!r})"
+        code = (
+            f"import scikit_build_core.build as build; build.build_sdist({str(tmp_path / name)!r})"
+        )
         subprocess.run([sys.executable, "-c", code], check=True, cwd=ROOT, capture_output=True)
         made.append(next((tmp_path / name).iterdir()))
     with tarfile.open(made[0]) as archive:

@@ -74,14 +74,20 @@ def blocks(name):
     text = (ROOT / name).read_text()
     fenced = re.findall(r"^```(?:sh|python)\n(.*?)^```", text, flags=re.MULTILINE | re.DOTALL)
     found = re.findall(r"(?:^|\n\n)((?: {4}[^\n]*(?:\n|$)|\n(?= {4}))+)", text)
-    indented = [re.sub(r"^ {4}", "", block, flags=re.MULTILINE).strip("\n") + "\n" for block in found]
+    indented = [
+        re.sub(r"^ {4}", "", block, flags=re.MULTILINE).strip("\n") + "\n" for block in found
+    ]
     return indented + fenced
 
 
 def commands(name):
     """The commands between backticks."""
     spans = re.findall(r"`([^`\n]+)`", (ROOT / name).read_text())
-    return [span for span in dict.fromkeys(spans) if re.match(rf"{PROGRAMS}(?: |$)", span) and " " in span]
+    return [
+        span
+        for span in dict.fromkeys(spans)
+        if re.match(rf"{PROGRAMS}(?: |$)", span) and " " in span
+    ]
 
 
 def is_python(block):
@@ -166,7 +172,9 @@ def test_blocks(name, block, folder):
     if re.search(BY_CI, block):
         assert block.strip() in _run_by_ci()
     elif is_python(block):
-        for library in re.findall(r"import (?:bsm, )?(?:bsm\.)?(trimesh|pyvista|meshio|open3d|openmesh)\b", block):
+        for library in re.findall(
+            r"import (?:bsm, )?(?:bsm\.)?(trimesh|pyvista|meshio|open3d|openmesh)\b", block
+        ):
             pytest.importorskip(library)
         (folder / "snippet.py").write_text(SETTING + block)
         passed(run(folder, "python snippet.py"))
@@ -189,7 +197,9 @@ def test_blocks(name, block, folder):
 
 def _run_by_ci():
     """The commands that CI takes out of the README: .ci/run prints them when it is asked to."""
-    done = subprocess.run([ROOT / ".ci" / "run", "--list"], capture_output=True, text=True, timeout=60, check=True)
+    done = subprocess.run(
+        [ROOT / ".ci" / "run", "--list"], capture_output=True, text=True, timeout=60, check=True
+    )
     return done.stdout.splitlines()
 
 
@@ -209,7 +219,9 @@ def test_commands(command, folder):
     if "tools.manuals" in command:
         pytest.importorskip("argparse_manpage", reason="no argparse-manpage here (extra manuals)")
     if re.search(f"{NEEDS_FOLDER}|{HELP_ONLY}", command) or re.fullmatch(r"bsm [a-z]+", command):
-        program = re.match(r"bsm \w+|python -m tools\.(?:measure|attack) \w+|python -m [\w.]+", command).group()
+        program = re.match(
+            r"bsm \w+|python -m tools\.(?:measure|attack) \w+|python -m [\w.]+", command
+        ).group()
         done = helped(folder, program)
         for option in re.findall(r" (--[a-z-]+|-[a-z])\b", command[len(program) :]):
             assert option in done.stdout, f"{program} has no {option}"
@@ -228,14 +240,27 @@ def test_commands(command, folder):
 
 @pytest.mark.long
 @pytest.mark.real
-@pytest.mark.parametrize("command", [c for c in COMMANDS if re.search(NEEDS_FOLDER, c) and not re.search(HELP_ONLY, c)])
+@pytest.mark.parametrize(
+    "command", [c for c in COMMANDS if re.search(NEEDS_FOLDER, c) and not re.search(HELP_ONLY, c)]
+)
 def test_commands_on_real_meshes(command, folder, meshes):
-    places = {"MESHES": meshes / "static", "SEQUENCES": meshes / "dynamic", "FOLDER": meshes, "MESH...": "bunny.ply"}
+    places = {
+        "MESHES": meshes / "static",
+        "SEQUENCES": meshes / "dynamic",
+        "FOLDER": meshes,
+        "MESH...": "bunny.ply",
+    }
     if "denois" in command:
         places["MESHES"] = meshes
     for placeholder, value in places.items():
         command = command.replace(placeholder, str(value))
-    passed(run(folder, command.replace("bunny_34834.ply", f"{meshes}/static/bunny_34834.ply"), timeout=7200))
+    passed(
+        run(
+            folder,
+            command.replace("bunny_34834.ply", f"{meshes}/static/bunny_34834.ply"),
+            timeout=7200,
+        )
+    )
 
 
 def test_something_is_found():
@@ -246,7 +271,9 @@ def test_something_is_found():
 
 # ----------------------------------------------------------------------------------------------- names in documents
 
-PATH = re.compile(r"[\w.-]+(?:/[\w.-]+)+\.(?:py|csv|c|h|hpp|md|sh|json|bin|toml|png|ts|mjs)|[\w-]+/(?:[\w-]+/)*(?=`)")
+PATH = re.compile(
+    r"[\w.-]+(?:/[\w.-]+)+\.(?:py|csv|c|h|hpp|md|sh|json|bin|toml|png|ts|mjs)|[\w-]+/(?:[\w-]+/)*(?=`)"
+)
 PAPERS = (*DOCUMENTS, "codec/PAPER.md", "web/README.md")
 HERE = ("", "codec", "src/bsm", "web", "spec", "bitstream")
 """Folders that paths in documents begin from."""
@@ -256,7 +283,9 @@ HERE = ("", "codec", "src/bsm", "web", "spec", "bitstream")
 def test_paths_that_documents_name_exist(name):
     spans = re.findall(r"`([^`\n]+)`", (ROOT / name).read_text())
     named = {path for span in spans if " " not in span for path in PATH.findall(f"{span}`")}
-    missing = {path for path in named if not any((ROOT / folder / path).exists() for folder in HERE)}
+    missing = {
+        path for path in named if not any((ROOT / folder / path).exists() for folder in HERE)
+    }
     assert missing <= EXAMPLES, f"{name} names paths that do not exist: {sorted(missing)}"
 
 
@@ -270,8 +299,14 @@ def test_docstrings_can_be_read_alone(room):
     """A tooltip is shown without the one before it."""
     sources = [path for path in (ROOT / room).rglob("*.py") if "node_modules" not in path.parts]
     nodes = [(path, node) for path in sources for node in ast.walk(ast.parse(path.read_text()))]
-    named = [(path, node) for path, node in nodes if isinstance(node, (ast.FunctionDef, ast.ClassDef))]
-    leaning = [f"{path}:{node.lineno}" for path, node in named if LEANING.match(ast.get_docstring(node) or "")]
+    named = [
+        (path, node) for path, node in nodes if isinstance(node, (ast.FunctionDef, ast.ClassDef))
+    ]
+    leaning = [
+        f"{path}:{node.lineno}"
+        for path, node in named
+        if LEANING.match(ast.get_docstring(node) or "")
+    ]
     assert not leaning
 
 
@@ -286,13 +321,17 @@ def public_functions():
     for name in bsm.__all__:
         value = getattr(bsm, name)
         for owner, member in vars(value).items() if inspect.isclass(value) else [(name, value)]:
-            function = member.fget if isinstance(member, property) else getattr(member, "__func__", member)
+            function = (
+                member.fget if isinstance(member, property) else getattr(member, "__func__", member)
+            )
             if inspect.isfunction(function) and not owner.startswith("_"):
                 yield f"{name}.{owner}", function
 
 
 def test_each_page_of_the_site_is_linked_from_another():
-    texts = [path for folder in ("docs", "docs/guides") for path in sorted((ROOT / folder).glob("*.md"))]
+    texts = [
+        path for folder in ("docs", "docs/guides") for path in sorted((ROOT / folder).glob("*.md"))
+    ]
     texts += [ROOT / source for source in docs_pages.ELSEWHERE.values()]
     links = {
         (text.parent / link).resolve()
@@ -300,14 +339,18 @@ def test_each_page_of_the_site_is_linked_from_another():
         for link in re.findall(r"\]\(([\w./-]+\.md)(?:#[\w-]+)?\)", text.read_text("utf-8"))
         if (text.parent / link).resolve() != text.resolve()
     }
-    assert not [str(text) for text in texts if text.resolve() not in links and text.name != "index.md"]
+    assert not [
+        str(text) for text in texts if text.resolve() not in links and text.name != "index.md"
+    ]
 
 
 def test_docstrings_of_public_arrays_name_shapes():
     """One cannot call what takes an array without knowing how many rows and columns it has."""
     found = {name: it for name, it in public_functions() if ARRAYS.search(str(it.__annotations__))}
     assert found
-    assert not [name for name, function in found.items() if not SHAPE.search(function.__doc__ or "")]
+    assert not [
+        name for name, function in found.items() if not SHAPE.search(function.__doc__ or "")
+    ]
 
 
 def test_the_table_of_exit_codes_is_that_of_the_program():
@@ -315,14 +358,22 @@ def test_the_table_of_exit_codes_is_that_of_the_program():
 
 
 def test_one_script_makes_all_pictures():
-    kept = subprocess.run(["git", "ls-files"], cwd=ROOT, check=True, capture_output=True, text=True).stdout.split("\n")
+    kept = subprocess.run(
+        ["git", "ls-files"], cwd=ROOT, check=True, capture_output=True, text=True
+    ).stdout.split("\n")
     links = {
         str((ROOT / page).parent.joinpath(link).resolve().relative_to(ROOT.resolve()))
         for page in kept
         if page.endswith(".md")
-        for link in re.findall(r"!\[[^\]]*\]\((?!https?:)([^)]+)\)", (ROOT / page).read_text("utf-8"))
+        for link in re.findall(
+            r"!\[[^\]]*\]\((?!https?:)([^)]+)\)", (ROOT / page).read_text("utf-8")
+        )
     }
-    assert links == {*PICTURES} == {name for name in kept if re.search(r"\.(png|jpe?g|gif|webp|svg|avif)$", name)}
+    assert (
+        links
+        == {*PICTURES}
+        == {name for name in kept if re.search(r"\.(png|jpe?g|gif|webp|svg|avif)$", name)}
+    )
 
 
 def test_the_first_picture_says_what_the_table_says():
@@ -335,16 +386,30 @@ def test_the_first_picture_says_what_the_table_says():
             name, _, value = data[at + 8 : at + 8 + size].decode("latin-1").partition("\0")
             figures[name] = value
         at += size + 12
-    row = next(line for line in (ROOT / "README.md").read_text("utf-8").splitlines() if line.startswith("| bunny"))
+    row = next(
+        line
+        for line in (ROOT / "README.md").read_text("utf-8").splitlines()
+        if line.startswith("| bunny")
+    )
     cells = [cell.strip() for cell in row.split("|")]
-    assert (figures["file"], figures["balanced"]) == (cells[2], cells[4]), "run python -m tools.pictures MESHES"
+    assert (figures["file"], figures["balanced"]) == (cells[2], cells[4]), (
+        "run python -m tools.pictures MESHES"
+    )
 
 
 def test_every_page_and_every_document_of_the_law_is_on_the_site():
     navigation = (ROOT / "mkdocs.yml").read_text(encoding="utf-8")
     pages = [page.removeprefix("docs/") for page in PAGES] + [*docs_pages.ELSEWHERE]
-    missing = [page for page in pages if f": {page}\n" not in navigation and not page.startswith("api/python")]
+    missing = [
+        page
+        for page in pages
+        if f": {page}\n" not in navigation and not page.startswith("api/python")
+    ]
     assert missing == []
-    assert set(docs_pages.law().values()) == {f"spec/{path.name}" for path in (ROOT / "spec").glob("*.md")}
+    assert set(docs_pages.law().values()) == {
+        f"spec/{path.name}" for path in (ROOT / "spec").glob("*.md")
+    }
     overview = (ROOT / "spec/README.md").read_text(encoding="utf-8")
-    assert [path.name for path in (ROOT / "spec").glob("*.md") if path.name not in overview] == ["README.md"]
+    assert [path.name for path in (ROOT / "spec").glob("*.md") if path.name not in overview] == [
+        "README.md"
+    ]

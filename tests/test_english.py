@@ -25,13 +25,22 @@ PATTERNS = {
     "no after is": re.compile(r"\b(?:is|are|was|were) no \w+"),
     "a ratio in place of a percentage": re.compile(r"(?<![\d\w])\.\d+ of (?:the|its|all|a)\b"),
     "alone after a noun": re.compile(r"\b\w+s alone\b"),
-    "a verb of state": re.compile(r"\b(?:speaks? of|strikes?\b|hangs? on|is another|are another|comes? again)"),
+    "a verb of state": re.compile(
+        r"\b(?:speaks? of|strikes?\b|hangs? on|is another|are another|comes? again)"
+    ),
 }
 """Patterns of sentences, not words: each has a plain form that names the actor or the thing."""
 LIMITS = {"documents": 4, "strings": 3}
 EXCEPTIONS = ("What it must show",)
 """Parts of lines in which a pattern is right. Questions are right, too."""
-PUBLIC = ("README.md", "CHANGELOG.md", "CONTRIBUTING.md", "library/README.md", "web/README.md", "library/bsmdec.h")
+PUBLIC = (
+    "README.md",
+    "CHANGELOG.md",
+    "CONTRIBUTING.md",
+    "library/README.md",
+    "web/README.md",
+    "library/bsmdec.h",
+)
 PRODUCT = ("src/", "codec/", "bitstream/")
 PROGRAMS = re.compile(r"/built/|viewer\.js$")  # written by programs
 WIDE = 120  # columns
@@ -53,8 +62,14 @@ MEAN, LONGEST = 15, 35  # words of a sentence
 @cache
 def tracked():
     """The texts of files that people read, without links."""
-    listed = subprocess.run(["git", "ls-files", "-z"], cwd=ROOT, check=True, capture_output=True, text=True).stdout
-    paths = [Path(name) for name in listed.split("\0") if Path(name).suffix in READ and not PROGRAMS.search(name)]
+    listed = subprocess.run(
+        ["git", "ls-files", "-z"], cwd=ROOT, check=True, capture_output=True, text=True
+    ).stdout
+    paths = [
+        Path(name)
+        for name in listed.split("\0")
+        if Path(name).suffix in READ and not PROGRAMS.search(name)
+    ]
     paths = [path for path in paths if (ROOT / path).is_file() and not (ROOT / path).is_symlink()]
     return {str(path): (ROOT / path).read_text("utf-8") for path in paths}
 
@@ -64,9 +79,15 @@ def texts(kind: str) -> Iterator[tuple[str, int, str]]:
     for name, text in tracked().items():
         if kind == "strings" and name.startswith(PRODUCT) and name.endswith(".py"):
             for node in ast.walk(ast.parse(text)):
-                if isinstance(node, ast.Constant) and isinstance(node.value, str) and " " in node.value:
+                if (
+                    isinstance(node, ast.Constant)
+                    and isinstance(node.value, str)
+                    and " " in node.value
+                ):
                     yield name, node.lineno, node.value
-        elif kind == "documents" and (name in PUBLIC or (name.startswith(("docs/", "spec/")) and name.endswith(".md"))):
+        elif kind == "documents" and (
+            name in PUBLIC or (name.startswith(("docs/", "spec/")) and name.endswith(".md"))
+        ):
             yield from ((name, number, line) for number, line in enumerate(text.splitlines(), 1))
 
 
@@ -86,8 +107,12 @@ def wide():
     for name, text in tracked().items():
         prose = name.endswith(".md")
         if prose or name.endswith((".c", ".h", ".cpp", ".hpp")):
-            text = re.sub(r"^```.*?^```", "", text, flags=re.MULTILINE | re.DOTALL) if prose else text
-            lines = (line for line in text.splitlines() if not (prose and line.startswith(("|", "    "))))
+            text = (
+                re.sub(r"^```.*?^```", "", text, flags=re.MULTILINE | re.DOTALL) if prose else text
+            )
+            lines = (
+                line for line in text.splitlines() if not (prose and line.startswith(("|", "    ")))
+            )
             yield from (f"{name}: {line}" for line in lines if len(line) > WIDE)
 
 
@@ -98,7 +123,9 @@ def sentences(text):
     text = re.sub(r"^ *(?:[-*]|\d+\.) ", "\n\n", text, flags=re.MULTILINE)
     text = re.sub(r"!?\[([^]]*)\]\([^)]*\)", r"\1", re.sub(r"`[^`]*`", "Code", text))
     parts = (
-        part for item in re.split(r"\n\s*\n", text) for part in re.split(r"(?<=[.!?])[)\"*]*\s+(?=[A-Z(\"*])", item)
+        part
+        for item in re.split(r"\n\s*\n", text)
+        for part in re.split(r"(?<=[.!?])[)\"*]*\s+(?=[A-Z(\"*])", item)
     )
     return [" ".join(part.split()) for part in parts if re.search(r"\w", part)]
 
@@ -106,25 +133,35 @@ def sentences(text):
 def comments(text):
     """The comments of C, as paragraphs."""
     return "\n\n".join(
-        re.sub(r"^ *\*+ ?", "", part, flags=re.MULTILINE) for part in re.findall(r"/\*+(.*?)\*/", text, re.DOTALL)
+        re.sub(r"^ *\*+ ?", "", part, flags=re.MULTILINE)
+        for part in re.findall(r"/\*+(.*?)\*/", text, re.DOTALL)
     )
 
 
 def lengths(text):
     """Words of each sentence."""
-    return [len([word for word in sentence.split() if re.search(r"\w", word)]) for sentence in sentences(text)]
+    return [
+        len([word for word in sentence.split() if re.search(r"\w", word)])
+        for sentence in sentences(text)
+    ]
 
 
 def documents():
     """What users read, by name."""
-    texts = {name: text for name, text in tracked().items() if name.endswith(".md") and name.startswith(DOCUMENTS)}
+    texts = {
+        name: text
+        for name, text in tracked().items()
+        if name.endswith(".md") and name.startswith(DOCUMENTS)
+    }
     return texts | {"library/bsmdec.h": comments(tracked()["library/bsmdec.h"])}
 
 
 @pytest.mark.parametrize("kind", LIMITS)
 def test_patterns_of_translations_only_get_fewer(kind):
     places = found(kind)
-    assert len(places) <= LIMITS[kind], "\n".join([f"{len(places)} of at most {LIMITS[kind]}:", *places])
+    assert len(places) <= LIMITS[kind], "\n".join(
+        [f"{len(places)} of at most {LIMITS[kind]}:", *places]
+    )
 
 
 @pytest.mark.parametrize(
@@ -140,7 +177,9 @@ def test_patterns_of_translations_only_get_fewer(kind):
     ],
 )
 def test_patterns_are_found(text, pattern):
-    assert [name for name, expression in PATTERNS.items() if expression.search(text)] == ([pattern] if pattern else [])
+    assert [name for name, expression in PATTERNS.items() if expression.search(text)] == (
+        [pattern] if pattern else []
+    )
 
 
 def test_no_line_is_wide():
@@ -151,12 +190,15 @@ def test_sentences_are_short():
     counted = {name: lengths(text) for name, text in documents().items()}
     every = [words for found in counted.values() for words in found]
     assert sum(every) / len(every) <= MEAN
-    assert not {name: max(found) for name, found in counted.items() if found and max(found) > LONGEST}
+    assert not {
+        name: max(found) for name, found in counted.items() if found and max(found) > LONGEST
+    }
 
 
 def test_sentences_are_counted_as_a_reader_does():
     text = (
-        "# No title\n\nOne `two three` (four). Five\nsix 1.5.\n\n- Seven.\n\n| no | table |\n\n    code\n\nTwo *words.*"
+        "# No title\n\nOne `two three` (four). Five\nsix 1.5.\n\n- Seven.\n\n"
+        "| no | table |\n\n    code\n\nTwo *words.*"
     )
     assert lengths(text) == [3, 3, 1, 2]
     assert lengths(comments("/** One two. */ int x; /* Three\n * four */")) == [2, 2]

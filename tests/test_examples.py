@@ -39,12 +39,18 @@ def test_notebooks(path, tmp_path, monkeypatch):
     notebook = nbformat.read(path, as_version=4)
     nbformat.validate(notebook)
     assert not any(cell.get("outputs") for cell in notebook.cells), "outputs are not committed"
-    nbclient.NotebookClient(notebook, timeout=300, resources={"metadata": {"path": str(tmp_path)}}).execute()
+    nbclient.NotebookClient(
+        notebook, timeout=300, resources={"metadata": {"path": str(tmp_path)}}
+    ).execute()
     shown = [output for cell in notebook.cells for output in cell.get("outputs", [])]
     assert shown and not any(output.output_type == "error" for output in shown)
-    assert any("image/png" in output.get("data", {}) for output in shown) or path.stem == "first_mesh"
+    assert (
+        any("image/png" in output.get("data", {}) for output in shown) or path.stem == "first_mesh"
+    )
     if path.stem == "first_mesh":
-        assert any("application/vnd.jupyter.widget-view+json" in output.get("data", {}) for output in shown)
+        assert any(
+            "application/vnd.jupyter.widget-view+json" in output.get("data", {}) for output in shown
+        )
 
 
 def test_all_are_listed():
@@ -55,7 +61,9 @@ def test_all_are_listed():
 
 def script(name, *words, **more):
     command = [sys.executable, EXAMPLES / name, *map(str, words)]
-    return subprocess.run(command, capture_output=True, text=True, env=ENVIRONMENT, timeout=300, check=False, **more)
+    return subprocess.run(
+        command, capture_output=True, text=True, env=ENVIRONMENT, timeout=300, check=False, **more
+    )
 
 
 def test_a_folder_of_scans(tmp_path):
@@ -69,7 +77,11 @@ def test_a_folder_of_scans(tmp_path):
     stream = tmp_path / "out/deep/scan.bsm"
     assert bsm.compare(mesh, stream).theta_deg < bsm.compare(mesh, noisy).theta_deg
     rows = (tmp_path / "out/report.csv").read_text().splitlines()
-    assert len(rows) == 3 and rows[1].startswith("broken.ply,11,,,") and f",{stream.stat().st_size}," in rows[2]
+    assert (
+        len(rows) == 3
+        and rows[1].startswith("broken.ply,11,,,")
+        and f",{stream.stat().st_size}," in rows[2]
+    )
     assert "was there" in script("scans.py", tmp_path / "in", tmp_path / "out").stdout
 
 
@@ -80,7 +92,11 @@ def test_scans_of_one_name_and_links_to_nothing(tmp_path):
     (tmp_path / "in/b.ply").symlink_to("nothing")
     done = script("scans.py", tmp_path / "in", tmp_path / "out")
     assert done.returncode == 0, done.stderr
-    assert sorted(path.name for path in (tmp_path / "out").iterdir()) == ["a.obj.bsm", "a.ply.bsm", "report.csv"]
+    assert sorted(path.name for path in (tmp_path / "out").iterdir()) == [
+        "a.obj.bsm",
+        "a.ply.bsm",
+        "report.csv",
+    ]
     rows = (tmp_path / "out/report.csv").read_text().splitlines()
     assert "was there" not in done.stdout and "No such file" in rows[3]
 
@@ -112,7 +128,16 @@ SECONDS = 10.0
 @pytest.fixture(scope="module")
 def server():
     """A service with one worker and one that stands by, which gives a request ten seconds."""
-    command = [sys.executable, EXAMPLES / "service.py", "--port", "0", "--jobs", "1", "--seconds", str(SECONDS)]
+    command = [
+        sys.executable,
+        EXAMPLES / "service.py",
+        "--port",
+        "0",
+        "--jobs",
+        "1",
+        "--seconds",
+        str(SECONDS),
+    ]
     with subprocess.Popen(
         command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, env=ENVIRONMENT
     ) as running:
@@ -167,7 +192,9 @@ def test_a_service_that_takes_uploads(service):
     status, answer = post(f"{service}/decode", stream[: len(stream) // 2])
     assert status == 422 and answer.startswith(b"TruncatedError: ") and b"/" not in answer
     assert post(f"{service}/other", b"")[0] == 404
-    many = off(bsm.TriangleMesh(np.zeros((3, 3)), [[0, 1, 2]])).replace(b"3 1 0", b"99999999999 1 0")
+    many = off(bsm.TriangleMesh(np.zeros((3, 3)), [[0, 1, 2]])).replace(
+        b"3 1 0", b"99999999999 1 0"
+    )
     assert post(f"{service}/encode", many)[0] in (413, 422)
 
 
@@ -182,7 +209,9 @@ def test_a_service_takes_forms_says_its_health_and_sends_warnings(service):
         b"Content-Type: application/octet-stream\r\n\r\n" + file + b"\r\n--x1--\r\n"
     )
     kind = {"Content-Type": "multipart/form-data; boundary=x1"}
-    with urllib.request.urlopen(urllib.request.Request(f"{service}/encode", parts, kind), timeout=120) as answer:
+    with urllib.request.urlopen(
+        urllib.request.Request(f"{service}/encode", parts, kind), timeout=120
+    ) as answer:
         stream, notes = answer.read(), answer.headers.get_all("X-BSM-Warning")
     assert bsm.compare(mesh, stream).max_error_relative < 0.05
     assert notes == ["left out 1 vertex that no face uses"]
@@ -197,7 +226,15 @@ def test_a_service_takes_forms_says_its_health_and_sends_warnings(service):
 @pytest.mark.skipif(shutil.which("curl") is None, reason="no curl")
 def test_a_service_takes_what_curl_sends_as_a_form(service, tmp_path):
     bsm.save(knot(300), tmp_path / "a.obj")
-    command = ["curl", "-sf", "-F", f"file=@{tmp_path}/a.obj", f"{service}/encode", "-o", tmp_path / "a.bsm"]
+    command = [
+        "curl",
+        "-sf",
+        "-F",
+        f"file=@{tmp_path}/a.obj",
+        f"{service}/encode",
+        "-o",
+        tmp_path / "a.bsm",
+    ]
     subprocess.run(command, check=True, timeout=120)
     assert len(bsm.decode(tmp_path / "a.bsm").faces) == len(knot(300).faces)
 
@@ -208,7 +245,15 @@ def test_a_service_takes_what_curl_sends_as_a_form(service, tmp_path):
         (b"POST /encode HTTP/1.0", 411),
         *(
             (b"POST /encode HTTP/1.0\r\nContent-Length: " + length, 400)
-            for length in (b"9" * 5000, b"-1", b"+5", b"0x5", b"5, 5", b"5\r\nContent-Length: 6", b"\xb2")
+            for length in (
+                b"9" * 5000,
+                b"-1",
+                b"+5",
+                b"0x5",
+                b"5, 5",
+                b"5\r\nContent-Length: 6",
+                b"\xb2",
+            )
         ),
         (b"POST /encode HTTP/1.0\r\nContent-Length: 99999999999", 413),
         (b"POST http://[/ HTTP/1.0\r\nContent-Length: 5", 400),
@@ -227,7 +272,8 @@ def test_a_service_goes_on_whatever_hangs_dies_or_never_comes(server):
         os.kill(pid, signal.SIGSTOP)
     with ThreadPoolExecutor(2) as clients:
         hanging = [clients.submit(post, f"{service}/encode", off(knot(200))) for _ in range(2)]
-    results = [c.result() for c in hanging]  # the second one may find a process that took the place of the first's
+    # The second one may find a process that took the place of the first's.
+    results = [c.result() for c in hanging]
     assert any(text.startswith(b"TimeoutError: ") for _, text in results)
     assert {status for status, _ in results} <= {200, 503}
     for pid in workers_of(process):
@@ -235,7 +281,9 @@ def test_a_service_goes_on_whatever_hangs_dies_or_never_comes(server):
     assert answers(service) and answers(service)
     head = b"POST /encode HTTP/1.0\r\nContent-Length: 1000\r\n\r\n"
     silent = [send(service, words, more=True) for words in (head, head + b"OFF", b"POST /enc")]
-    assert answers(service) and not select.select(silent, [], [], 0)[0], "no silent one was waited for"
+    assert answers(service) and not select.select(silent, [], [], 0)[0], (
+        "no silent one was waited for"
+    )
     for connection, status in zip(silent, (b" 408 ", b" 408 ", b"")):
         with connection, connection.makefile("rb") as file:
             assert status in file.read(), "it is let go of"

@@ -29,7 +29,12 @@ from tools.noise import gaussian_along_normals
 from tools.vectors.meshes import tangled
 
 BEYOND = 10**6
-KERNELS = {name: kernel for room in (of_bytes, of_arrays) for name, kernel in vars(room).items() if callable(kernel)}
+KERNELS = {
+    name: kernel
+    for room in (of_bytes, of_arrays)
+    for name, kernel in vars(room).items()
+    if callable(kernel)
+}
 REFUSALS = 40
 """Of a kernel, after which it is left alone."""
 NOTHING_SHORT = {"priors", "start", "constant", "fields", "frames_kept", "return_free_memory"}
@@ -75,12 +80,18 @@ def defended(kernel: Callable[..., Any], name: str, refusals: dict[str, int]) ->
 @pytest.fixture
 def refusals(monkeypatch: pytest.MonkeyPatch) -> dict[str, int]:
     """How often each kernel that was called refused."""
-    for late in ("bsm.codec.sequence.encoder", "bsm.codec.denoise.automatic", "bsm.codec.static.choice.search"):
+    for late in (
+        "bsm.codec.sequence.encoder",
+        "bsm.codec.denoise.automatic",
+        "bsm.codec.static.choice.search",
+    ):
         import_module(late)  # modules that come later are not watched
     counts: dict[str, int] = {}
     wrapped = {name: defended(kernel, name, counts) for name, kernel in KERNELS.items()}
     for library, room in ((of_bytes, "bsm.bitstream."), (of_arrays, "bsm.codec.")):
-        watched = SimpleNamespace(**{name: wrapped.get(name, kernel) for name, kernel in vars(library).items()})
+        watched = SimpleNamespace(
+            **{name: wrapped.get(name, kernel) for name, kernel in vars(library).items()}
+        )
         for name, module in list(sys.modules.items()):
             if name.startswith(room) and getattr(module, "_kernels", None) is library:
                 monkeypatch.setattr(module, "_kernels", watched)
@@ -92,7 +103,9 @@ def test_every_kernel_defends_itself(refusals: dict[str, int]) -> None:
     mesh, size = dressed(bare), len(bare.positions)
     moved = gaussian_along_normals(bare.positions, bare.faces, 0.3, seed=1)
     smooth = torus(24, 16)
-    scan = TriangleMesh(gaussian_along_normals(smooth.positions, smooth.faces, 0.1, seed=1), smooth.faces)
+    scan = TriangleMesh(
+        gaussian_along_normals(smooth.positions, smooth.faces, 0.1, seed=1), smooth.faces
+    )
     cases: tuple[tuple[TriangleMesh, dict[str, Any]], ...] = (
         (mesh, {"bits": 12, "key_seed": "svd", "partition": "metis"}),
         (mesh, {"step": 0.01, "smoothing": 1.0}),
@@ -120,7 +133,9 @@ def test_every_kernel_defends_itself(refusals: dict[str, int]) -> None:
     slide(raised(bare.positions, frames, still, 0.1), frames, still, np.ones(size))
     shaper = Shaper(Original(bare.positions, bare.faces), graph_of(bare))
     shaper.levels(bare.positions, still[:, :1], frames[:, None, :3], 1.0, 1.0)
-    defended(of_arrays.turn_columns, "turn_columns", refusals)(np.eye(4, 2), np.empty(4), np.empty(2))
+    defended(of_arrays.turn_columns, "turn_columns", refusals)(
+        np.eye(4, 2), np.empty(4), np.empty(2)
+    )
     seen = Settler(bare.positions, bare.faces, graph_of(bare))
     seen.levels(2.0 * bare.positions, frames, steps, lambda _: steps, 0.01, np.full(size, np.inf))
     corners = bare.positions[bare.faces].reshape(-1, 9)
@@ -128,4 +143,6 @@ def test_every_kernel_defends_itself(refusals: dict[str, int]) -> None:
     AttributeLook(bare, "texcoord", np.ascontiguousarray(corners[:, :6]))
     names = {*KERNELS} - NOTHING_SHORT
     assert sorted(names - set(refusals)) == [], "kernels that this test does not reach"
-    assert [name for name in sorted(names) if not refusals[name]] == [], "kernels that refuse nothing"
+    assert [name for name in sorted(names) if not refusals[name]] == [], (
+        "kernels that refuse nothing"
+    )

@@ -20,7 +20,10 @@ def test_the_file_of_the_container_names_files_extras_and_options_that_there_are
     (text,) = re.findall(r"```dockerfile\n(.*?)```", PAGE, re.DOTALL)
     project = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
     extras = re.findall(r"'(?:/checkout|([\w-]+))\[(\w+)\]'", text)
-    assert len(extras) == 2 and {extra for _, extra in extras} <= project["optional-dependencies"].keys()
+    assert (
+        len(extras) == 2
+        and {extra for _, extra in extras} <= project["optional-dependencies"].keys()
+    )
     assert {name for name, _ in extras if name} == {project["name"]}
     copied = re.findall(r"^COPY (?!--from)(\S+) (\S+)$", text, re.MULTILINE)
     assert all((ROOT / source).exists() for source, _ in copied)
@@ -32,7 +35,9 @@ def test_the_file_of_the_container_names_files_extras_and_options_that_there_are
     assert all(f'"{word}"' in service for word in words if word.startswith("--"))
     # The check of health asks the port that the service opens and the file exposes.
     port = words[words.index("--port") + 1]
-    assert f"127.0.0.1:{port}/health" in text and f"EXPOSE {port}" in text and '"/health"' in service
+    assert (
+        f"127.0.0.1:{port}/health" in text and f"EXPOSE {port}" in text and '"/health"' in service
+    )
 
 
 def test_the_logger_gets_each_warning_also_those_that_python_hides(caplog):
@@ -40,7 +45,9 @@ def test_the_logger_gets_each_warning_also_those_that_python_hides(caplog):
         warnings.simplefilter("ignore")
         for _ in range(2):
             bsm.encode(LOOSE)
-    assert [(record.name, record.levelno) for record in caplog.records] == [("bsm", logging.WARNING)] * 2
+    assert [(record.name, record.levelno) for record in caplog.records] == [
+        ("bsm", logging.WARNING)
+    ] * 2
     assert "left out 1 vertex that no face uses" in caplog.text
 
 

@@ -48,7 +48,10 @@ SHARES = {
     ("README.md", r"with ([\d.]+) to ([\d.]+) % of the bytes; without them a scan"): "blocks",
     ("docs/how-it-works.md", r"Blocks alone take ([\d.]+) to ([\d.]+) %"): "blocks",
     ("docs/how-it-works.md", r"the whole shape, after (\d+) to (\d+) % of the bytes"): "shape",
-    ("docs/guides/streaming.md", r"connectivity comes first: (\d+) to (\d+) % of the default stream"): "connectivity",
+    (
+        "docs/guides/streaming.md",
+        r"connectivity comes first: (\d+) to (\d+) % of the default stream",
+    ): "connectivity",
 }
 
 
@@ -61,7 +64,10 @@ def test_shares_of_scans_are_those_that_documents_tell(meshes: Path, name: str) 
         least, most = numbers(document, pattern)
         assert least <= shares(info)[part] <= most, f"{document}: {part} of {name}"
     cells = info.header.vertices / info.header.base[0]
-    for document, pattern in (("codec/PAPER.md", r"cells of (\d+) to (\d+) vertices"), ("docs/how-it-works.md", CELL)):
+    for document, pattern in (
+        ("codec/PAPER.md", r"cells of (\d+) to (\d+) vertices"),
+        ("docs/how-it-works.md", CELL),
+    ):
         least, most = numbers(document, pattern)
         assert least <= cells <= most
 
@@ -69,7 +75,9 @@ def test_shares_of_scans_are_those_that_documents_tell(meshes: Path, name: str) 
 def test_measured_shares_lie_in_the_ranges_of_the_readme() -> None:
     """Those of sixteen scans, which `python -m tools.replicate --shares` measured and keeps."""
     kept = json.loads(KEPT.read_text("utf-8"))["numbers"]["shares"]
-    least, most = numbers("README.md", r"with ([\d.]+) to ([\d.]+) % of the bytes; without them a scan")
+    least, most = numbers(
+        "README.md", r"with ([\d.]+) to ([\d.]+) % of the bytes; without them a scan"
+    )
     fewest, largest = map(float, kept["blocks"].split(" to "))
     assert least <= fewest < largest <= most
     least, most = numbers("README.md", r"without them a scan takes (\d+) to (\d+) % more")
@@ -82,13 +90,16 @@ CELL = r"the vertices near it, (\d+) to (\d+)"
 
 def test_cells_of_a_made_scan_are_as_large_as_documents_tell() -> None:
     info = inspect_stream(iter([stream()]))
-    least, most = numbers("docs/guides/streaming.md", r"cells of (\d+) to (\d+) vertices, in chains of at most four")
+    least, most = numbers(
+        "docs/guides/streaming.md", r"cells of (\d+) to (\d+) vertices, in chains of at most four"
+    )
     assert least <= info.header.vertices / info.header.base[0] <= most and CHAIN == 4
 
 
 def test_constants_in_sentences_are_those_of_the_code() -> None:
     chains = numbers(
-        "codec/PAPER.md", r"chains of at most (\d+) blocks of cells, (\d+) blocks of the mesh itself .*?, and (\d+) in"
+        "codec/PAPER.md",
+        r"chains of at most (\d+) blocks of cells, (\d+) blocks of the mesh itself .*?, and (\d+) in",
     )
     assert chains == (CHAIN, EncodeOptions().key_interval, RULES.key_interval)
     rounds = {spread.rounds for spread in SPREADS}
@@ -98,7 +109,9 @@ def test_constants_in_sentences_are_those_of_the_code() -> None:
 
 @pytest.mark.real
 @pytest.mark.parametrize(("name", "place"), [("bunny_34834", 0), ("horse_48485", 1)])
-def test_a_damaged_block_loses_what_the_page_of_streaming_tells(meshes: Path, name: str, place: int) -> None:
+def test_a_damaged_block_loses_what_the_page_of_streaming_tells(
+    meshes: Path, name: str, place: int
+) -> None:
     pattern = r"about 1,800 cells: ([\d,]+) vertices of the bunny, ([\d,]+) of the horse"
     told = numbers("docs/guides/streaming.md", pattern)[place]
     data, skimmer = real_stream(meshes / "static" / f"{name}.ply"), Skimmer()
@@ -110,8 +123,13 @@ def test_a_damaged_block_loses_what_the_page_of_streaming_tells(meshes: Path, na
         damaged = bytearray(data)
         damaged[packet.offset + packet.length - 6] ^= 255
         with Decoder(tolerant=True, threads=1) as decoder:
-            (end,) = (event for event in decoder.events([bytes(damaged)]) if isinstance(event, EndEvent))
-        missing, degraded = max(missing, len(end.losses.missing)), max(degraded, len(end.losses.degraded))
+            (end,) = (
+                event for event in decoder.events([bytes(damaged)]) if isinstance(event, EndEvent)
+            )
+        missing, degraded = (
+            max(missing, len(end.losses.missing)),
+            max(degraded, len(end.losses.degraded)),
+        )
     assert 0.85 * told < missing < 1.15 * told
     assert 0.5 * missing < degraded < 2.0 * missing  # "about as many again"
 
@@ -119,8 +137,12 @@ def test_a_damaged_block_loses_what_the_page_of_streaming_tells(meshes: Path, na
 @pytest.mark.real
 def test_the_scheme_of_the_paper_leaves_the_angles_that_are_told(meshes: Path) -> None:
     pytest.importorskip("pymetis", reason="needs METIS")
-    coarse = numbers("docs/guides/denoising.md", r"coarse step of `oi` leaves ([\d.]+) and ([\d.]+) degrees")
-    fine = numbers("docs/guides/denoising.md", r"fandisk keeps ([\d.]+) degrees with `oi`, and ([\d.]+) with")
+    coarse = numbers(
+        "docs/guides/denoising.md", r"coarse step of `oi` leaves ([\d.]+) and ([\d.]+) degrees"
+    )
+    fine = numbers(
+        "docs/guides/denoising.md", r"fandisk keeps ([\d.]+) degrees with `oi`, and ([\d.]+) with"
+    )
     twelve = "twelve_dodecahedron", "twelve_dodecahedron_noisy"
     fandisk = "fandisk_6475", "fandisk_0.7_noisy"
     cases = (
@@ -133,21 +155,30 @@ def test_the_scheme_of_the_paper_leaves_the_angles_that_are_told(meshes: Path) -
         original = read_mesh(meshes / "static" / f"{clean}.ply").mesh
         given = read_mesh(meshes / "noisy" / f"{noisy}.ply").mesh
         result = denoise(given, force=True, **options)
-        assert theta(original.positions, result.positions, given.faces) == pytest.approx(told, abs=0.15)
+        assert theta(original.positions, result.positions, given.faces) == pytest.approx(
+            told, abs=0.15
+        )
 
 
 @pytest.mark.real
 def test_most_vertices_have_all_their_neighbors_in_one_block(meshes: Path) -> None:
     pytest.importorskip("pymetis", reason="needs METIS")
-    alone, least, most = numbers("codec/PAPER.md", r"(\d+) % of the vertices of fandisk .*? overlap (\d+) to (\d+) %")
+    alone, least, most = numbers(
+        "codec/PAPER.md", r"(\d+) % of the vertices of fandisk .*? overlap (\d+) to (\d+) %"
+    )
     mesh = read_mesh(meshes / "static" / "fandisk_6475.ply").mesh
     graph = graph_of(mesh)
     partition = metis_partition(graph, 15)
     degrees = np.diff(graph.offsets)
     rows = np.repeat(np.arange(graph.size), degrees)
-    inside = np.bincount(rows[partition.labels[rows] == partition.labels[graph.neighbors]], minlength=graph.size)
+    inside = np.bincount(
+        rows[partition.labels[rows] == partition.labels[graph.neighbors]], minlength=graph.size
+    )
     assert 100 * float(np.mean(inside == degrees)) == pytest.approx(alone, abs=3.0)
-    blocks, largest = grow_blocks(graph, partition, block_size(partition, OVERLAP)), np.zeros(graph.size, int)
+    blocks, largest = (
+        grow_blocks(graph, partition, block_size(partition, OVERLAP)),
+        np.zeros(graph.size, int),
+    )
     for index in range(blocks.count):
         block = blocks.block(index)
         largest[block.vertices] = np.maximum(largest[block.vertices], block.degrees)
@@ -174,5 +205,7 @@ def test_the_choice_of_distances_changes_nmsve_as_told(meshes: Path) -> None:
     own = apart + np.linalg.norm(rough(first, first) - rough(second, second))
     others = apart + np.linalg.norm(rough(first, first) - rough(second, first))
     reference = Reference(first, clean.faces)
-    assert own / (2 * graph.size) / reference.scale == pytest.approx(reference.nmsve(second), rel=1e-6)
+    assert own / (2 * graph.size) / reference.scale == pytest.approx(
+        reference.nmsve(second), rel=1e-6
+    )
     assert 0.1 < abs(10 * np.log10(own / others)) < most

@@ -61,25 +61,37 @@ _SCALAR = """
 """
 _OWN = re.compile(r'^#include "([^"]+)"\n', re.MULTILINE)
 _WORDS = r"(?!typedef|static|extern|return|INLINE|SHARED|KERNEL|OFTEN|struct|enum|union)(?:const )?"
-_PROTOTYPE = re.compile(rf"^(?={_WORDS}\w+ \**(?!bsmdec_|bsmenc_)[^=;{{]*\([^;{{]*\);)", re.MULTILINE)
+_PROTOTYPE = re.compile(
+    rf"^(?={_WORDS}\w+ \**(?!bsmdec_|bsmenc_)[^=;{{]*\([^;{{]*\);)", re.MULTILINE
+)
 _FUNCTION = re.compile(
-    r"^(?:KERNEL |OFTEN )*(?:static |INLINE |SHARED )+(?:OFTEN )?(?:const )?\w+ \**(?:ISA\()?(\w+)\)?\(", re.MULTILINE
+    r"^(?:KERNEL |OFTEN )*(?:static |INLINE |SHARED )+(?:OFTEN )?(?:const )?\w+ \**(?:ISA\()?(\w+)\)?\(",
+    re.MULTILINE,
 )
 _BARE = re.compile(
-    rf"^(?=(?:KERNEL |OFTEN )*{_WORDS}\w+ \**(?!bsmdec_|bsmenc_)(?:ISA\()?\w+\)?\([^;{{]*\) \{{)", re.MULTILINE
+    rf"^(?=(?:KERNEL |OFTEN )*{_WORDS}\w+ \**(?!bsmdec_|bsmenc_)(?:ISA\()?\w+\)?\([^;{{]*\) \{{)",
+    re.MULTILINE,
 )
 _DOUBLES = '#define VECTORS_OF_DOUBLES\n#include "codec/basis/vectors.h"\n'
 _TYPE = re.compile(r"^(?:typedef .*?|\} )(\w+);$", re.MULTILINE)
 _CONSTANTS = re.compile(r"enum \{(.*?)\}", re.DOTALL)
-_VARIABLES = re.compile(r"^static const [^=;({]*?(\w+)(?:\[[^=;]*)? = (.*?);$", re.MULTILINE | re.DOTALL)
+_VARIABLES = re.compile(
+    r"^static const [^=;({]*?(\w+)(?:\[[^=;]*)? = (.*?);$", re.MULTILINE | re.DOTALL
+)
 _MACRO = re.compile(r"^\s*#\s*define (\w+)", re.MULTILINE)
 
 
 def sources(*, encodes: bool = False) -> list[str]:
     """The files of the decoder or of the whole library, kernels first, by their paths in the repository."""
     kernels = [path for folder in FOLDERS for path in sorted((ROOT / folder).rglob("*.c"))]
-    library = sorted((ROOT / "library").glob("*.c")) + sorted((ROOT / "library/encode").glob("*.c")) * encodes
-    paths = (str(path.relative_to(ROOT)) for path in [*kernels, *(ROOT / name for name in FILES), *library])
+    library = (
+        sorted((ROOT / "library").glob("*.c"))
+        + sorted((ROOT / "library/encode").glob("*.c")) * encodes
+    )
+    paths = (
+        str(path.relative_to(ROOT))
+        for path in [*kernels, *(ROOT / name for name in FILES), *library]
+    )
     return [path for path in paths if path not in CHOICES]
 
 
@@ -93,7 +105,9 @@ def _read(path: str) -> str:
     """A file, with the vectors of doubles and the Onorm that it has: others have vectors of floats."""
     vectors = (ROOT / VECTORS).read_text()
     text = (ROOT / path).read_text().replace(f'#include "{ONORM}"\n', (ROOT / ONORM).read_text())
-    return text.replace(_DOUBLES, f"#define VECTORS_OF_DOUBLES\n{vectors}").replace("#pragma once\n", "")
+    return text.replace(_DOUBLES, f"#define VECTORS_OF_DOUBLES\n{vectors}").replace(
+        "#pragma once\n", ""
+    )
 
 
 def _bare(text: str) -> str:
@@ -115,12 +129,22 @@ def _names(text: str) -> set[str]:
     """Names of file scope that a text defines."""
     bare = _bare(text)
     constants = [
-        item for body in _CONSTANTS.findall(bare) for item in re.findall(r"(\w+)\s*(?:=[^,]*)?(?:,|$)", body.strip())
+        item
+        for body in _CONSTANTS.findall(bare)
+        for item in re.findall(r"(\w+)\s*(?:=[^,]*)?(?:,|$)", body.strip())
     ]
     variables = [
-        name for name, rest in _VARIABLES.findall(bare) for name in [name, *re.findall(r", (\w+)(?:\[[^=]*)? =", rest)]
+        name
+        for name, rest in _VARIABLES.findall(bare)
+        for name in [name, *re.findall(r", (\w+)(?:\[[^=]*)? =", rest)]
     ]
-    return {*_FUNCTION.findall(bare), *_TYPE.findall(bare), *_MACRO.findall(bare), *constants, *variables}
+    return {
+        *_FUNCTION.findall(bare),
+        *_TYPE.findall(bare),
+        *_MACRO.findall(bare),
+        *constants,
+        *variables,
+    }
 
 
 def _renamed(text: str, names: Iterable[str], suffix: str) -> str:
@@ -131,9 +155,14 @@ def _renamed(text: str, names: Iterable[str], suffix: str) -> str:
 
 def _private(text: str) -> str:
     """A header or a source with private names."""
-    text = re.sub(r"^(extern )?INSIDE ", "static ", text, flags=re.MULTILINE).replace("extern const", "static const")
+    text = re.sub(r"^(extern )?INSIDE ", "static ", text, flags=re.MULTILINE).replace(
+        "extern const", "static const"
+    )
     return _BARE.sub(
-        "static ", _PROTOTYPE.sub("static ", re.sub(r"^const (?=.*\[)", "static const ", text, flags=re.MULTILINE))
+        "static ",
+        _PROTOTYPE.sub(
+            "static ", re.sub(r"^const (?=.*\[)", "static const ", text, flags=re.MULTILINE)
+        ),
     )
 
 
@@ -143,7 +172,10 @@ def _apart(texts: dict[str, str], seen_by: dict[str, dict[str, str]]) -> None:
     for header in [path for path in texts if path.endswith(".h")]:
         for name in sorted(_TYPE.findall(_bare(texts[header]))):
             if first.setdefault(name, header) != header:
-                for path in [header, *(path for path, headers in seen_by.items() if header in headers)]:
+                for path in [
+                    header,
+                    *(path for path, headers in seen_by.items() if header in headers),
+                ]:
                     texts[path] = re.sub(rf"\b{name}\b", f"{name}_{Path(header).stem}", texts[path])
 
 
@@ -169,7 +201,14 @@ def amalgamated(*, encodes: bool = False) -> str:
         text = _SCALAR.format(text) if path.startswith(SHORT) else text
         (per_isa if path.endswith(".simd.c") else pieces).append(text)
     choices = [_OWN.sub("", _read(path)) for path in CHOICES]
-    return "".join([*pieces, *_each_isa("".join(per_isa)), *choices, _private(learnt("PRIORS") + learnt("START"))])
+    return "".join(
+        [
+            *pieces,
+            *_each_isa("".join(per_isa)),
+            *choices,
+            _private(learnt("PRIORS") + learnt("START")),
+        ]
+    )
 
 
 def _each_isa(text: str) -> Iterator[str]:

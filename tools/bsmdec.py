@@ -5,7 +5,19 @@ import hashlib
 import subprocess
 import tarfile
 from collections.abc import Callable
-from ctypes import CFUNCTYPE, POINTER, Structure, byref, c_char, c_char_p, c_double, c_int, c_int64, c_size_t, c_void_p
+from ctypes import (
+    CFUNCTYPE,
+    POINTER,
+    Structure,
+    byref,
+    c_char,
+    c_char_p,
+    c_double,
+    c_int,
+    c_int64,
+    c_size_t,
+    c_void_p,
+)
 from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
@@ -21,13 +33,28 @@ from tools.amalgamate import ROOT, amalgamated, interface
 FLAGS = ("-std=gnu11", "-O2", "-fPIC", "-shared")
 QUICKLY = ("-O1", "-DKERNEL_ONE_TARGET")
 WARNINGS = ("-Wall", "-Wextra", "-Wpedantic", "-Werror")
-HEADER, METADATA, CONNECTIVITY, BLOCK, REFINEMENT, ATTRIBUTE, FRAME, LOSS, END, END_OF_STREAM, ERROR = range(1, 12)
+(
+    HEADER,
+    METADATA,
+    CONNECTIVITY,
+    BLOCK,
+    REFINEMENT,
+    ATTRIBUTE,
+    FRAME,
+    LOSS,
+    END,
+    END_OF_STREAM,
+    ERROR,
+) = range(1, 12)
 SEMANTICS, DOMAINS = ("generic", "color", "normal", "texcoord"), ("vertex", "corner", "face")
 KINDS = ("uint8", "int8", "uint16", "int16", "uint32", "int32", "float32", "float64")
 
 
 class Event(Structure):
-    _fields_ = [("type", c_int), *((name, c_int64) for name in ("index", "count", "vertices", "faces", "frames"))]
+    _fields_ = [
+        ("type", c_int),
+        *((name, c_int64) for name in ("index", "count", "vertices", "faces", "frames")),
+    ]
 
 
 class Failure(Structure):
@@ -63,7 +90,9 @@ class Entry(Structure):
     @property
     def value(self) -> int | float | str | bytes:
         data = ctypes.string_at(self.bytes, self.size) if self.bytes else b""
-        return (self.whole, self.number, data.decode() if self.type == 3 else "", data)[self.type - 1]
+        return (self.whole, self.number, data.decode() if self.type == 3 else "", data)[
+            self.type - 1
+        ]
 
 
 _TASK = CFUNCTYPE(None, c_void_p, c_int)
@@ -109,13 +138,20 @@ class Options(Structure):
         start: int = 0,
         parallel: int | None = None,
     ) -> None:
-        super().__init__(ctypes.sizeof(Options), limits, allocator, tolerant, start, parallel=parallel)
+        super().__init__(
+            ctypes.sizeof(Options), limits, allocator, tolerant, start, parallel=parallel
+        )
 
 
 class ReleasedOptions(Structure):
     """Options of release 1.0."""
 
-    _fields_ = [("limits", c_void_p), ("allocator", c_void_p), ("tolerant", c_int), ("start", c_int64)]
+    _fields_ = [
+        ("limits", c_void_p),
+        ("allocator", c_void_p),
+        ("tolerant", c_int),
+        ("start", c_int64),
+    ]
 
 
 @dataclass
@@ -133,10 +169,17 @@ class Decoded:
     runs: list[tuple[int, int, npt.NDArray[Any]]] = field(default_factory=list)
 
 
-def compiled(*flags: str, compiler: str = "cc", files: tuple[str, str] | None = None, encodes: bool = False) -> Path:
+def compiled(
+    *flags: str, compiler: str = "cc", files: tuple[str, str] | None = None, encodes: bool = False
+) -> Path:
     """A folder with bsmdec.c, bsmdec.h and bsmdec.so, compiled once of these files and flags (QUICKLY, if none)."""
     source, header = files or (amalgamated(), interface())
-    command = [compiler, *FLAGS, *(WARNINGS if files is None or encodes else ["-w"]), *(flags or QUICKLY)]
+    command = [
+        compiler,
+        *FLAGS,
+        *(WARNINGS if files is None or encodes else ["-w"]),
+        *(flags or QUICKLY),
+    ]
     name = hashlib.sha256(
         "\0".join([source, header, interface(encodes=True) * encodes, *command]).encode()
     ).hexdigest()[:16]
@@ -166,7 +209,10 @@ def loaded(folder: Path) -> ctypes.CDLL:
     library.bsmdec_open.restype = c_void_p
     library.bsmdec_last_error.restype = POINTER(Failure)
     if hasattr(library, "bsmdec_last_misuse"):
-        library.bsmdec_last_misuse.argtypes, library.bsmdec_last_misuse.restype = [c_void_p], c_char_p
+        library.bsmdec_last_misuse.argtypes, library.bsmdec_last_misuse.restype = (
+            [c_void_p],
+            c_char_p,
+        )
     names = "close push finish next faces positions last_error"
     for name in (
         *names.split(),
@@ -220,7 +266,10 @@ def decode(
             while pieces and library.bsmdec_next(decoder, byref(event)) == 0 and event.type != 0:
                 _take(library, decoder, event, found)
         library.bsmdec_finish(decoder)
-        while library.bsmdec_next(decoder, byref(event)) == 0 and event.type not in (0, END_OF_STREAM):
+        while library.bsmdec_next(decoder, byref(event)) == 0 and event.type not in (
+            0,
+            END_OF_STREAM,
+        ):
             _take(library, decoder, event, found)
         error = library.bsmdec_last_error(decoder).contents
         found.status, found.message = error.status, error.message.decode()
@@ -254,15 +303,28 @@ def of_sequence(found: Decoded) -> dict[str, npt.NDArray[Any]]:
             arrays[key] = np.array(each)
     frames = [positions for _, positions in found.frames if positions is not None]
     if len(found.runs) == 1:
-        return arrays | {"positions": np.array(frames).reshape(-1, found.runs[0][1], 3), "faces": found.runs[0][2]}
-    runs = np.array([(first, vertices, len(faces)) for first, vertices, faces in found.runs], np.int32)
+        return arrays | {
+            "positions": np.array(frames).reshape(-1, found.runs[0][1], 3),
+            "faces": found.runs[0][2],
+        }
+    runs = np.array(
+        [(first, vertices, len(faces)) for first, vertices, faces in found.runs], np.int32
+    )
     faces = np.concatenate([faces for *_, faces in found.runs])
-    return arrays | {"positions": np.concatenate([np.zeros((0, 3)), *frames]), "faces": faces, "runs": runs}
+    return arrays | {
+        "positions": np.concatenate([np.zeros((0, 3)), *frames]),
+        "faces": faces,
+        "runs": runs,
+    }
 
 
 def _positions(library: ctypes.CDLL, decoder: Any, event: Event) -> npt.NDArray[np.float64] | None:
     positions = np.zeros((event.vertices, 3))
-    return None if library.bsmdec_positions(decoder, positions.ctypes.data, positions.size) else positions
+    return (
+        None
+        if library.bsmdec_positions(decoder, positions.ctypes.data, positions.size)
+        else positions
+    )
 
 
 def _faces(library: ctypes.CDLL, decoder: Any, event: Event) -> npt.NDArray[np.int32]:
@@ -278,13 +340,18 @@ def _attributes(library: ctypes.CDLL, decoder: Any, found: Decoded) -> dict[str,
         if library.bsmdec_attribute_at(decoder, index, byref(shape)) != 0:
             continue
         values = np.zeros((shape.rows, shape.components), KINDS[shape.kind])
-        assert library.bsmdec_attribute_values(decoder, index, values.ctypes.data, values.nbytes) == 0
+        assert (
+            library.bsmdec_attribute_values(decoder, index, values.ctypes.data, values.nbytes) == 0
+        )
         label = f"{SEMANTICS[shape.semantic]} {DOMAINS[shape.domain]} {shape.name.decode()}"
         arrays[f"attribute {number} {label}"] = values
         found.moving |= {f"attribute {number} {label}"} if shape.moves else set()
         if shape.indices:
             indices = np.zeros((shape.indices // 3, 3), np.uint32)
-            assert library.bsmdec_attribute_indices(decoder, index, indices.ctypes.data, indices.size) == 0
+            assert (
+                library.bsmdec_attribute_indices(decoder, index, indices.ctypes.data, indices.size)
+                == 0
+            )
             arrays[f"indices {number}"] = indices.astype(np.int32)
         number += 1
     return arrays

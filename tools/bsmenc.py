@@ -2,7 +2,19 @@
 
 import ctypes
 from collections.abc import Container
-from ctypes import CFUNCTYPE, POINTER, Structure, byref, c_char_p, c_double, c_int, c_int32, c_int64, c_size_t, c_void_p
+from ctypes import (
+    CFUNCTYPE,
+    POINTER,
+    Structure,
+    byref,
+    c_char_p,
+    c_double,
+    c_int,
+    c_int32,
+    c_int64,
+    c_size_t,
+    c_void_p,
+)
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -24,7 +36,13 @@ class Given(Structure):
     _fields_ = [
         ("name", c_char_p),
         *((name, c_int) for name in ("domain", "semantic", "kind", "components")),
-        *(("rows", c_int64), ("values", c_void_p), ("indices", c_void_p), ("quality", c_int), ("amount", c_double)),
+        *(
+            ("rows", c_int64),
+            ("values", c_void_p),
+            ("indices", c_void_p),
+            ("quality", c_int),
+            ("amount", c_double),
+        ),
     ]
 
 
@@ -32,7 +50,12 @@ class Mesh(Structure):
     _fields_ = [
         *(("size", c_size_t), ("vertices", c_int64), ("faces", c_int64)),
         *((name, c_void_p) for name in ("positions", "positions_single", "corners", "attributes")),
-        *(("attribute_count", c_size_t), ("metadata", c_void_p), ("metadata_count", c_size_t), ("frames", c_int64)),
+        *(
+            ("attribute_count", c_size_t),
+            ("metadata", c_void_p),
+            ("metadata_count", c_size_t),
+            ("frames", c_int64),
+        ),
     ]
 
 
@@ -41,7 +64,13 @@ PROGRESS = CFUNCTYPE(c_int, c_void_p, c_double)
 
 class Options(Structure):
     _fields_ = [
-        *(("size", c_size_t), ("positions", c_int), ("bits", c_int), ("cell", c_double), ("origin", c_double * 3)),
+        *(
+            ("size", c_size_t),
+            ("positions", c_int),
+            ("bits", c_int),
+            ("cell", c_double),
+            ("origin", c_double * 3),
+        ),
         *(("keep_order", c_int), ("quick", c_int), ("limits", c_void_p), ("allocator", c_void_p)),
         *(("progress", PROGRESS), ("host", c_void_p)),
     ]
@@ -58,7 +87,11 @@ class Allocator(Structure):
     def __init__(self, refused: Container[int] = ()) -> None:
         self.held, self.calls, self.refused = dict[int, int](), 0, refused
         libc = ctypes.CDLL(None)
-        libc.malloc.argtypes, libc.malloc.restype, libc.free.argtypes = [c_size_t], c_void_p, [c_void_p]
+        libc.malloc.argtypes, libc.malloc.restype, libc.free.argtypes = (
+            [c_size_t],
+            c_void_p,
+            [c_void_p],
+        )
         self._libc = libc
         super().__init__(ctypes.sizeof(Allocator), TAKE(self._take), GIVE(self._give), None)
 
@@ -77,7 +110,13 @@ class Allocator(Structure):
 
 class Outcome(Structure):
     _fields_ = [
-        *(("index", c_int), ("error", c_double), ("step", c_double), ("bits", c_int), ("recomputed", c_int)),
+        *(
+            ("index", c_int),
+            ("error", c_double),
+            ("step", c_double),
+            ("bits", c_int),
+            ("recomputed", c_int),
+        ),
         *(("zeros", c_int64), ("scaled", c_int)),
     ]
 
@@ -113,18 +152,29 @@ def library(*flags: str) -> ctypes.CDLL:
 def compiled_whole(*flags: str) -> Path:
     """A folder with decoder and encoder, compiled of one file."""
     files = amalgamated(encodes=True), interface()
-    return compiled("-ffp-contract=off", "-O1", "-DKERNEL_ONE_TARGET", *flags, files=files, encodes=True)
+    return compiled(
+        "-ffp-contract=off", "-O1", "-DKERNEL_ONE_TARGET", *flags, files=files, encodes=True
+    )
 
 
-def encode(library: ctypes.CDLL, mesh: TriangleMesh, qualities: Any = (), **options: Any) -> Encoded:
+def encode(
+    library: ctypes.CDLL, mesh: TriangleMesh, qualities: Any = (), **options: Any
+) -> Encoded:
     """Encode a mesh; `qualities`: by the names of attributes, a word and an amount."""
-    kept: list[Any] = [np.ascontiguousarray(mesh.positions), np.ascontiguousarray(mesh.faces, np.uint32)]
+    kept: list[Any] = [
+        np.ascontiguousarray(mesh.positions),
+        np.ascontiguousarray(mesh.faces, np.uint32),
+    ]
     given = (Given * len(mesh.attributes))()
     for i, a in enumerate(mesh.attributes):
         indices = None if a.indices is None else np.ascontiguousarray(a.indices, np.uint32)
         way, amount = dict(qualities).get(a.name, ("default", 0.0))
         kept.append(indices)
-        numbers = DOMAINS.index(a.domain), SEMANTICS.index(a.semantic), KINDS.index(a.values.dtype.name)
+        numbers = (
+            DOMAINS.index(a.domain),
+            SEMANTICS.index(a.semantic),
+            KINDS.index(a.values.dtype.name),
+        )
         at = None if indices is None else indices.ctypes.data
         shape = a.values.shape[1], len(a.values), a.values.ctypes.data, at
         given[i] = Given(a.name.encode(), *numbers, *shape, QUALITIES.index(way), amount)
@@ -140,7 +190,15 @@ def encode(library: ctypes.CDLL, mesh: TriangleMesh, qualities: Any = (), **opti
     arrays = kept[0].ctypes.data, None, kept[1].ctypes.data, ctypes.addressof(given)
     frames = options.pop("frames", 0)  # whose positions follow each other
     sizes = len(kept[0]) // max(frames, 1), len(kept[1])
-    whole = Mesh(ctypes.sizeof(Mesh), *sizes, *arrays, len(given), ctypes.addressof(entries), len(entries), frames)
+    whole = Mesh(
+        ctypes.sizeof(Mesh),
+        *sizes,
+        *arrays,
+        len(given),
+        ctypes.addressof(entries),
+        len(entries),
+        frames,
+    )
     chosen = Options(ctypes.sizeof(Options))
     for name, value in options.items():
         setattr(chosen, name, (c_double * 3)(*value) if name == "origin" else value)
@@ -155,7 +213,11 @@ def run(library: ctypes.CDLL, mesh: Mesh, options: Options, attributes: int = 0)
         return Encoded(status, "", b"", (None, None), (0, 0, 0, 0), 0.0, [])
     stream = found.contents
     data = ctypes.string_at(stream.bytes, stream.size) if stream.bytes else b""
-    orders = (stream.vertex_order[: stream.vertices], stream.face_order[: stream.faces]) if data else (None, None)
+    orders = (
+        (stream.vertex_order[: stream.vertices], stream.face_order[: stream.faces])
+        if data
+        else (None, None)
+    )
     counts = stream.merged, stream.loose, stream.collapsed, stream.moved
     errors = [stream.outcomes[i].error for i in range(attributes)] if data else []
     result = Encoded(status, stream.message.decode(), data, orders, counts, stream.error, errors)

@@ -11,10 +11,14 @@ from bsm.ground.exits import behind, exit_of, is_expected, report_error
 
 def parser_of(words: str | None) -> argparse.ArgumentParser:
     """A parser whose help begins with these words, as they are."""
-    return argparse.ArgumentParser(description=words, formatter_class=argparse.RawDescriptionHelpFormatter)
+    return argparse.ArgumentParser(
+        description=words, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
 
 
-def run_command(parser: argparse.ArgumentParser, work: Callable[[argparse.Namespace, Console], None]) -> None:
+def run_command(
+    parser: argparse.ArgumentParser, work: Callable[[argparse.Namespace, Console], None]
+) -> None:
     """Parse, work, and exit."""
     try:
         work(parser.parse_args(), Console())

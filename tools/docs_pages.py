@@ -45,7 +45,8 @@ def on_config(config: Any) -> Any:
             section["The format"] = [*law()]
         if "Reference" in section:
             section["Reference"].insert(
-                1, {"Python": ["api/python.md", *({name: f"api/{name}.md"} for name in reference())]}
+                1,
+                {"Python": ["api/python.md", *({name: f"api/{name}.md"} for name in reference())]},
             )
     return config
 
@@ -55,7 +56,9 @@ def on_files(files: Any, config: Any) -> Any:
     from mkdocs.structure.files import File
 
     for page, source in (ELSEWHERE | law()).items():
-        files.append(File.generated(config, page, content=(ROOT / source).read_text(encoding="utf-8")))
+        files.append(
+            File.generated(config, page, content=(ROOT / source).read_text(encoding="utf-8"))
+        )
     for page, data in live().items():
         files.append(File.generated(config, f"live/{page}", content=data))
     files.append(File.generated(config, "api/python.md", content=contents()))
@@ -76,13 +79,21 @@ def on_page_markdown(markdown: str, *, page: Any, **_: Any) -> str:
         return f"]({relpath(name, dirname(place) or '.')}{link[2] or ''})" if name else link[0]
 
     # a[i][j] in the specification is not a link.
-    return re.sub(LINK, moved, markdown.replace("][", "]\\[") if place.startswith("format/") else markdown)
+    return re.sub(
+        LINK, moved, markdown.replace("][", "]\\[") if place.startswith("format/") else markdown
+    )
 
 
 def live() -> dict[str, bytes]:
     """The decoder and the player of the first page, as the npm package has them, and the page that encodes."""
-    built = {path.name: path.read_bytes() for path in (ROOT / "web/built").iterdir() if path.suffix in (".js", ".wasm")}
-    return built | {f"view/{name}": data for name, data in site_with([]).items() if isinstance(data, bytes)}
+    built = {
+        path.name: path.read_bytes()
+        for path in (ROOT / "web/built").iterdir()
+        if path.suffix in (".js", ".wasm")
+    }
+    return built | {
+        f"view/{name}": data for name, data in site_with([]).items() if isinstance(data, bytes)
+    }
 
 
 def law() -> dict[str, str]:
@@ -93,21 +104,28 @@ def law() -> dict[str, str]:
 
 def _place(name: str) -> tuple[int, str]:
     kinds = ("README", "core-", "extension-")
-    return next((place for place, kind in enumerate(kinds) if name.startswith(kind)), len(kinds)), name
+    return next(
+        (place for place, kind in enumerate(kinds) if name.startswith(kind)), len(kinds)
+    ), name
 
 
 def reference() -> dict[str, str]:
     """A page for each public function, type and module, by its name."""
     found = {f"bsm.{name}": getattr(bsm, name) for name in bsm.__all__}
     names = [name for name, value in found.items() if isclass(value) or isfunction(value)]
-    return {name: f"::: {name}\n    options:\n      heading_level: 1\n" for name in (*names, *MODULES)}
+    return {
+        name: f"::: {name}\n    options:\n      heading_level: 1\n" for name in (*names, *MODULES)
+    }
 
 
 def contents() -> str:
     """The page that says in a sentence what each of them is."""
     rows = []
     for name in reference():
-        text = MODULES.get(name) or (getdoc(getattr(bsm, name.partition(".")[2])) or "").partition("\n")[0]
+        text = (
+            MODULES.get(name)
+            or (getdoc(getattr(bsm, name.partition(".")[2])) or "").partition("\n")[0]
+        )
         rows.append(f"| [`{name}`]({name}.md) | {text.rstrip('.')} |")
     return "\n".join(["# Python", "", "| name | what it is |", "|---|---|", *rows, ""])
 
@@ -117,7 +135,9 @@ def command_line() -> str:
     parts = ["# Command line\n"]
     for name, summary in COMMANDS.items():
         parser = command_parser(name)
-        parts.append(f"## bsm {name}\n\nTo {summary}.\n\n```text\n{parser.format_help().rstrip()}\n```\n")
+        parts.append(
+            f"## bsm {name}\n\nTo {summary}.\n\n```text\n{parser.format_help().rstrip()}\n```\n"
+        )
     return "\n".join(parts)
 
 

@@ -34,7 +34,9 @@ def gridded(
     return [
         header_frame(**announced | fields),
         (FrameType.CONNECTIVITY, coded.payload),
-        *grid_frames(coded.faces, values, counts, fields["grid"], fields.get("light", 0), transforms, whole),
+        *grid_frames(
+            coded.faces, values, counts, fields["grid"], fields.get("light", 0), transforms, whole
+        ),
     ]
 
 
@@ -52,7 +54,9 @@ def grid_frames(
     grid = Raster((0.0, 0.0, 0.0), 1.0, tuple(largest), transforms=transforms, whole=whole)
     field = grid_field(faces, largest, values, light, grid)
     for count in counts:
-        frames.append((int(FrameType.GRID), write_varint(first) + write_varint(count) + field.write(count)[0]))
+        frames.append(
+            (int(FrameType.GRID), write_varint(first) + write_varint(count) + field.write(count)[0])
+        )
         first += count
     return frames
 
@@ -108,7 +112,10 @@ def _values(random: Random, positions: npt.NDArray[np.float64], largest: list[in
 
 def _fields(random: Random, most: int) -> dict[str, Any]:
     """Some fields of a header."""
-    fields: dict[str, Any] = {"light": random.choice((0, 1, 1)), "scale": random.choice((1.0, 0.25, 3.0))}
+    fields: dict[str, Any] = {
+        "light": random.choice((0, 1, 1)),
+        "scale": random.choice((1.0, 0.25, 3.0)),
+    }
     if random.random() < 0.25:
         points = max(1, most) + random.randrange(3)
         fields["lattice"] = [points + random.randrange(1000), points]

@@ -28,7 +28,9 @@ def body_of(path: str) -> list[ast.stmt]:
 
 def fields_of(path: str, name: str) -> dict[str, str]:
     """The fields of a class of options, and their types."""
-    kind = next(node for node in body_of(path) if isinstance(node, ast.ClassDef) and node.name == name)
+    kind = next(
+        node for node in body_of(path) if isinstance(node, ast.ClassDef) and node.name == name
+    )
     found = (node for node in kind.body if isinstance(node, ast.AnnAssign))
     return {ast.unparse(node.target): ast.unparse(node.annotation) for node in found}
 
@@ -36,7 +38,9 @@ def fields_of(path: str, name: str) -> dict[str, str]:
 def table(path: str, name: str) -> Any:
     """The value of a constant."""
     found = (node for node in body_of(path) if isinstance(node, ast.Assign))
-    return next(ast.literal_eval(node.value) for node in found if ast.unparse(node.targets[0]) == name)
+    return next(
+        ast.literal_eval(node.value) for node in found if ast.unparse(node.targets[0]) == name
+    )
 
 
 def targets(name: str) -> dict[str, str]:
@@ -50,11 +54,22 @@ def main() -> None:
     for home, names in table("src/bsm/__init__.py", "_NAMES").items():
         public += "".join(f"from {home} import {name} as {name}\n" for name in names.split())
     (ROOT / "src/bsm/__init__.pyi").write_text(public, "utf-8")
-    meshes = fields_of(MESHES, "EncodeOptions") | fields_of(MESHES, "Paper") | targets("TARGETS") | BOUNDS
-    sequences = fields_of(SEQUENCES, "SequenceOptions") | targets("SEQUENCE_TARGETS") | {"effort": "str"} | BOUNDS
+    meshes = (
+        fields_of(MESHES, "EncodeOptions")
+        | fields_of(MESHES, "Paper")
+        | targets("TARGETS")
+        | BOUNDS
+    )
+    sequences = (
+        fields_of(SEQUENCES, "SequenceOptions")
+        | targets("SEQUENCE_TARGETS")
+        | {"effort": "str"}
+        | BOUNDS
+    )
     kinds = {
         "OptionKeywords": meshes,
-        "EncodeKeywords": meshes | {"simplify": "bool", "progress": "Callable[[int, int], None] | None"},
+        "EncodeKeywords": meshes
+        | {"simplify": "bool", "progress": "Callable[[int, int], None] | None"},
         "SequenceKeywords": sequences,
         "DenoiseKeywords": fields_of("codec/denoise/filters.py", "DenoiseOptions"),
     }

@@ -81,7 +81,9 @@ def _crossings(field: Field, first: Floats, last: Floats, inside: npt.NDArray[np
 def gradient(field: Field, places: Floats, step: float) -> Floats:
     """Unit normals of the field, by differences."""
     offsets = step * np.eye(3)
-    slope = np.stack([field(places + offset) - field(places - offset) for offset in offsets], axis=-1)
+    slope = np.stack(
+        [field(places + offset) - field(places - offset) for offset in offsets], axis=-1
+    )
     return np.asarray(slope / np.maximum(np.linalg.norm(slope, axis=-1, keepdims=True), 1e-12))
 
 
@@ -111,25 +113,35 @@ def _meet(
 def _triangles(positions: Positions, quads: npt.NDArray[np.int64]) -> Faces:
     """Each quad along its shorter diagonal."""
     a, b, c, d = (quads[:, k] for k in range(4))
-    short = np.linalg.norm(positions[a] - positions[c], axis=1) < np.linalg.norm(positions[b] - positions[d], axis=1)
+    short = np.linalg.norm(positions[a] - positions[c], axis=1) < np.linalg.norm(
+        positions[b] - positions[d], axis=1
+    )
     first = np.where(short[:, None], np.stack([a, b, c], axis=1), np.stack([a, b, d], axis=1))
     second = np.where(short[:, None], np.stack([a, c, d], axis=1), np.stack([b, c, d], axis=1))
     return np.concatenate([first, second]).astype(np.int32)
 
 
-def _evened(field: Field, positions: Positions, faces: Faces, firm: npt.NDArray[np.bool_], step: float) -> Positions:
+def _evened(
+    field: Field, positions: Positions, faces: Faces, firm: npt.NDArray[np.bool_], step: float
+) -> Positions:
     """Smooth vertices to the mean of their neighbors, back onto the surface; those on creases stay."""
     starts, members = vertex_neighbors(faces, len(positions))
     degrees = np.diff(starts)
     owners = np.repeat(np.arange(len(positions)), degrees)
     free = ~firm & (degrees > 0)
     for _ in range(EVENINGS):
-        sums = np.stack([np.bincount(owners, column[members], len(positions)) for column in positions.T], axis=1)
+        sums = np.stack(
+            [np.bincount(owners, column[members], len(positions)) for column in positions.T], axis=1
+        )
         mean = sums / np.maximum(degrees, 1)[:, None]
         moved = np.where(free[:, None], 0.5 * (positions + mean), positions)
         for _ in range(2):
             slope = np.stack(
-                [field(moved + offset) - field(moved - offset) for offset in 0.02 * step * np.eye(3)], axis=-1
+                [
+                    field(moved + offset) - field(moved - offset)
+                    for offset in 0.02 * step * np.eye(3)
+                ],
+                axis=-1,
             ) / (0.04 * step)
             square = np.maximum((slope**2).sum(axis=1), 1e-6)
             shift = (field(moved) / square)[:, None] * slope
@@ -201,7 +213,11 @@ def _machined(random: Random) -> Field:
     half = random.uniform(0.35, 0.75, 3)
     body = random.integers(2)
     parts = [
-        (_primitive(random, random.uniform(0.2, 0.5)), random.random() < 0.6, int(random.integers(3)))
+        (
+            _primitive(random, random.uniform(0.2, 0.5)),
+            random.random() < 0.6,
+            int(random.integers(3)),
+        )
         for _ in range(random.integers(3, 8))
     ]
     width = random.uniform(0.05, 0.25)
@@ -213,9 +229,15 @@ def _machined(random: Random) -> Field:
             outside = np.sqrt((np.maximum(apart, 0.0) ** 2).sum(axis=-1))
             value = outside + np.minimum(apart.max(axis=-1), 0.0) - rounding
         else:
-            value = np.maximum(np.hypot(places[..., 0], places[..., 1]) - half[0], np.abs(places[..., 2]) - half[1])
+            value = np.maximum(
+                np.hypot(places[..., 0], places[..., 1]) - half[0], np.abs(places[..., 2]) - half[1]
+            )
         for part, cut, way in parts:
-            value = _joined(value, -part(places), width, way) if cut else -_joined(-value, -part(places), width, way)
+            value = (
+                _joined(value, -part(places), width, way)
+                if cut
+                else -_joined(-value, -part(places), width, way)
+            )
         return np.asarray(value)
 
     return field
@@ -243,23 +265,35 @@ def _sweep(random: Random) -> Field:
     ring, twist = random.random() < 0.6, int(random.integers(-3, 4))
     sides = int(random.integers(3, 8))
     radius, thick = random.uniform(0.4, 0.6), random.uniform(0.15, 0.32)
-    wave, turns, blend = random.uniform(0.0, 0.35), random.uniform(2.0, 5.0), random.uniform(0.0, 0.08)
+    wave, turns, blend = (
+        random.uniform(0.0, 0.35),
+        random.uniform(2.0, 5.0),
+        random.uniform(0.0, 0.08),
+    )
     angles = 2.0 * np.pi * np.arange(sides) / sides
     flat = random.random() < 0.7
 
     def field(places: Floats) -> Floats:
         x, y, z = places[..., 0], places[..., 1], places[..., 2]
         if ring:
-            u, v, turn = np.hypot(x, y) - radius, z, twist * np.arctan2(y, x) / (1 if not flat else sides)
+            u, v, turn = (
+                np.hypot(x, y) - radius,
+                z,
+                twist * np.arctan2(y, x) / (1 if not flat else sides),
+            )
         else:
             u, v, turn = x - wave * np.sin(turns * z), y - wave * np.cos(turns * z), twist * z
         profile = np.hypot(u, v) * 0.0 - 1.0
         if flat:
             a, b = u * np.cos(turn) - v * np.sin(turn), u * np.sin(turn) + v * np.cos(turn)
             for angle in angles:
-                profile = _joined(profile, a * np.cos(angle) + b * np.sin(angle) - thick, max(blend, 1e-3), 1)
+                profile = _joined(
+                    profile, a * np.cos(angle) + b * np.sin(angle) - thick, max(blend, 1e-3), 1
+                )
         else:
-            profile = np.hypot(u, v) - thick * (1.0 + 0.25 * np.cos(sides * np.arctan2(v, u) + turn))
+            profile = np.hypot(u, v) - thick * (
+                1.0 + 0.25 * np.cos(sides * np.arctan2(v, u) + turn)
+            )
         return profile if ring else np.maximum(profile, np.abs(z) - 0.8)
 
     return field
@@ -273,7 +307,10 @@ def _organic(random: Random) -> Field:
     soft = random.uniform(0.05, 0.25)
     octaves = int(random.integers(0, 6))
     waves = [
-        (np.stack([_direction(random) for _ in range(3)]) * 3.0 * 1.8**octave, random.uniform(0.0, 6.3, 3))
+        (
+            np.stack([_direction(random) for _ in range(3)]) * 3.0 * 1.8**octave,
+            random.uniform(0.0, 6.3, 3),
+        )
         for octave in range(octaves)
     ]
     strength, fall = random.uniform(0.01, 0.05), random.uniform(0.45, 0.75)
@@ -282,12 +319,16 @@ def _organic(random: Random) -> Field:
     def field(places: Floats) -> Floats:
         value = np.full(places.shape[:-1], np.inf)
         for (a, b), radius in zip(ends, radii, strict=True):
-            along = np.clip(((places - a) @ (b - a)) / max(float((b - a) @ (b - a)), 1e-6), 0.0, 1.0)
+            along = np.clip(
+                ((places - a) @ (b - a)) / max(float((b - a) @ (b - a)), 1e-6), 0.0, 1.0
+            )
             limb = np.sqrt(((places - a - along[..., None] * (b - a)) ** 2).sum(axis=-1)) - radius
             value = limb if np.isinf(value).all() else -_joined(-value, -limb, soft, 1)
         for octave, (wave, phase) in enumerate(waves):
             bumps = np.sin(places @ wave.T + phase).prod(axis=-1)
-            value = value + strength * fall**octave * 2.0 * (np.abs(bumps) - 0.3 if sharp else bumps)
+            value = value + strength * fall**octave * 2.0 * (
+                np.abs(bumps) - 0.3 if sharp else bumps
+            )
         return value
 
     return field

@@ -19,8 +19,14 @@ _OF_COMMANDS = re.compile(r"^\.SH COMMAND .*?(?=^\.SH OPTIONS$)", re.MULTILINE |
 
 def main() -> None:
     """Write all files."""
-    pages = {"bsm": _OF_COMMANDS.sub("", _manual(program_parser(complete=False), "compress triangle meshes"))}
-    pages |= {f"bsm-{name}": _manual(command_parser(name), summary) for name, summary in COMMANDS.items()}
+    pages = {
+        "bsm": _OF_COMMANDS.sub(
+            "", _manual(program_parser(complete=False), "compress triangle meshes")
+        )
+    }
+    pages |= {
+        f"bsm-{name}": _manual(command_parser(name), summary) for name, summary in COMMANDS.items()
+    }
     for name, page in pages.items():
         (SHARE / f"man/man1/{name}.1").write_text(page, encoding="utf-8")
     program: Any = program_parser()
@@ -28,7 +34,10 @@ def main() -> None:
     for command in commands.choices.values():
         for action in command.file_arguments():
             action.complete = shtab.FILE
-    for shell, path in (("bash", "bash-completion/completions/bsm"), ("zsh", "zsh/site-functions/_bsm")):
+    for shell, path in (
+        ("bash", "bash-completion/completions/bsm"),
+        ("zsh", "zsh/site-functions/_bsm"),
+    ):
         (SHARE / path).write_text(shtab.complete(program, shell), encoding="utf-8")
     write_tables()
 

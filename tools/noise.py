@@ -16,18 +16,26 @@ from bsm.codec.geometry.graph import vertex_neighbors
 from bsm.codec.geometry.metrics import mean_edge_length
 
 
-def gaussian_along_normals(positions: Positions, faces: Faces, sigma: float, seed: int) -> Positions:
+def gaussian_along_normals(
+    positions: Positions, faces: Faces, sigma: float, seed: int
+) -> Positions:
     """Move every vertex along its normal by a zero-mean Gaussian amount."""
-    amounts = np.random.default_rng(seed).normal(0.0, _length(positions, faces, sigma), (len(positions), 1))
+    amounts = np.random.default_rng(seed).normal(
+        0.0, _length(positions, faces, sigma), (len(positions), 1)
+    )
     return positions + amounts * _directions(positions, faces)
 
 
 def gaussian_isotropic(positions: Positions, faces: Faces, sigma: float, seed: int) -> Positions:
     """Move every coordinate of every vertex, shape (n, 3), by a zero-mean Gaussian amount."""
-    return positions + np.random.default_rng(seed).normal(0.0, _length(positions, faces, sigma), positions.shape)
+    return positions + np.random.default_rng(seed).normal(
+        0.0, _length(positions, faces, sigma), positions.shape
+    )
 
 
-def impulsive(positions: Positions, faces: Faces, sigma: float, fraction: float, seed: int) -> Positions:
+def impulsive(
+    positions: Positions, faces: Faces, sigma: float, fraction: float, seed: int
+) -> Positions:
     """Move a random choice of vertices along their normals by Gaussian amounts, and leave the others where they are."""
     _refuse_fraction(fraction)
     random = np.random.default_rng(seed)
@@ -45,17 +53,25 @@ def uniform_along_normals(positions: Positions, faces: Faces, sigma: float, seed
 
 
 def gaussian_along_axis(
-    positions: Positions, faces: Faces, sigma: float, seed: int, axis: tuple[float, float, float] = (0.0, 0.0, 1.0)
+    positions: Positions,
+    faces: Faces,
+    sigma: float,
+    seed: int,
+    axis: tuple[float, float, float] = (0.0, 0.0, 1.0),
 ) -> Positions:
     """Move every vertex, shape (n, 3), along one direction by a Gaussian amount."""
     length = float(np.linalg.norm(axis))
     if not 0.0 < length < np.inf:
         raise OptionError(f"the axis must have a direction, not {axis}")
-    amounts = np.random.default_rng(seed).normal(0.0, _length(positions, faces, sigma), (len(positions), 1))
+    amounts = np.random.default_rng(seed).normal(
+        0.0, _length(positions, faces, sigma), (len(positions), 1)
+    )
     return positions + amounts * (np.asarray(axis, dtype=np.float64) / length)
 
 
-def correlated_along_normals(positions: Positions, faces: Faces, sigma: float, seed: int, rounds: int = 2) -> Positions:
+def correlated_along_normals(
+    positions: Positions, faces: Faces, sigma: float, seed: int, rounds: int = 2
+) -> Positions:
     """Move every vertex along its normal by an amount that it shares in part with its neighbors."""
     neighbors = vertex_neighbors(faces, len(positions))
     degrees = np.diff(neighbors.starts)
@@ -92,8 +108,12 @@ def ripples_along_normals(
     directions = random.normal(size=(3, 3))
     directions /= np.linalg.norm(directions, axis=1, keepdims=True)
     turns = 2.0 * np.pi / (length * (mean_edge_length(positions, faces) or 1.0))
-    waves = np.sin(turns * (positions @ directions.T) + random.uniform(0.0, 2.0 * np.pi, 3)).sum(axis=1)
-    amounts = waves * (_length(positions, faces, sigma) / (float(np.sqrt(np.square(waves).mean())) or 1.0))
+    waves = np.sin(turns * (positions @ directions.T) + random.uniform(0.0, 2.0 * np.pi, 3)).sum(
+        axis=1
+    )
+    amounts = waves * (
+        _length(positions, faces, sigma) / (float(np.sqrt(np.square(waves).mean())) or 1.0)
+    )
     return np.asarray(positions + amounts[:, None] * _directions(positions, faces))
 
 
@@ -101,10 +121,16 @@ def rounded(positions: Positions, faces: Faces, sigma: float, seed: int) -> Posi
     """Round every coordinate to a grid."""
     step = np.sqrt(12.0) * _length(positions, faces, sigma) or 1.0
     offset = step * np.random.default_rng(seed).random(3)
-    return np.asarray(np.round((positions - offset) / step) * step + offset) if sigma > 0.0 else np.array(positions)
+    return (
+        np.asarray(np.round((positions - offset) / step) * step + offset)
+        if sigma > 0.0
+        else np.array(positions)
+    )
 
 
-def gaussian_in_part(positions: Positions, faces: Faces, sigma: float, fraction: float, seed: int) -> Positions:
+def gaussian_in_part(
+    positions: Positions, faces: Faces, sigma: float, fraction: float, seed: int
+) -> Positions:
     """Move the vertices at one end of the mesh along their normals by Gaussian amounts, and no others."""
     _refuse_fraction(fraction)
     place = positions[:, int(np.argmax(np.ptp(positions, axis=0)))]
@@ -129,7 +155,9 @@ def _length(positions: Positions, faces: Faces, sigma: float) -> float:
     return sigma * mean_edge_length(positions, faces)
 
 
-def denoise_automatically(points: Positions, faces: Faces, goal: str = "shading") -> tuple[Positions, AutomaticChoice]:
+def denoise_automatically(
+    points: Positions, faces: Faces, goal: str = "shading"
+) -> tuple[Positions, AutomaticChoice]:
     """Return denoised positions, shape (n, 3), of one mesh and the choice that was made for it."""
     denoiser = FrameDenoiser(points, faces, goal=goal)
     (result,) = denoiser([points])

@@ -62,7 +62,9 @@ def still_levels(matrices: int) -> bytes:
     return speller.payload_of_all()
 
 
-def decode_connectivity(payload: bytes, vertices: int, faces: int, limits: Limits = DEFAULT_LIMITS) -> Ints:
+def decode_connectivity(
+    payload: bytes, vertices: int, faces: int, limits: Limits = DEFAULT_LIMITS
+) -> Ints:
     """Return the faces, shape (m, 3), that the decoder makes of a connectivity payload."""
     decoder, writer = Decoder(limits, 1), SectionWriter()
     header = Header(vertices=vertices, faces=faces, grid=(1, 1, 1))

@@ -38,9 +38,17 @@ from tools.command import run_command
 from tools.noise import gaussian_along_normals
 
 ROOT = Path(__file__).parents[1]
-FRONT, MOTION, STREAMING = "tools/front.png", "docs/gallery/motion.webp", "docs/guides/streaming.png"
+FRONT, MOTION, STREAMING = (
+    "tools/front.png",
+    "docs/gallery/motion.webp",
+    "docs/guides/streaming.png",
+)
 SCANS, ASSETS = "docs/gallery/scans.jpg", "docs/guides/assets.jpg"
-TWINS, TRIALS, STEADY = "docs/gallery/twins.png", "docs/gallery/trials.png", "docs/guides/steady.png"
+TWINS, TRIALS, STEADY = (
+    "docs/gallery/twins.png",
+    "docs/gallery/trials.png",
+    "docs/guides/steady.png",
+)
 CELLED = "docs/gallery/cells.webp"
 PAGES = ("docs/guides/page-scan.jpg", "docs/guides/page-errors.jpg", "docs/guides/page-phone.jpg")
 PICTURES = (FRONT, MOTION, STREAMING, SCANS, ASSETS, TWINS, TRIALS, STEADY, CELLED, *PAGES)
@@ -73,7 +81,9 @@ def main(args: argparse.Namespace, console: Console) -> None:
     (ROOT / FRONT).write_bytes(with_titles(images, titles, figures=figures))
     (ROOT / TWINS).write_bytes(png(twins(bsm.load(folder / "assets" / "featuretype.STL"))))
     titles, images = zip(*celled(bsm.load(folder / "static" / "bunny_34834.ply")), strict=True)
-    Pictures.open(BytesIO(with_titles(images, titles))).convert("RGB").save(ROOT / CELLED, quality=80)
+    Pictures.open(BytesIO(with_titles(images, titles))).convert("RGB").save(
+        ROOT / CELLED, quality=80
+    )
     (ROOT / STEADY).write_bytes(png(steady(folder / "dynamic" / "horse_gallop.npz")))
     trials(bsm.load(folder / "static" / "bunny_34834.ply"), ROOT / TRIALS)
     console.note(motion(folder / "dynamic" / "samba.npz", ROOT / MOTION))
@@ -83,22 +93,31 @@ def main(args: argparse.Namespace, console: Console) -> None:
         stream = Path(work) / "bunny.bsm"
         stream.write_bytes(bsm.encode(folder / "static" / "bunny_34834.ply"))
         picture = ["npm", "run", "picture", "--", str(stream), str(ROOT / STREAMING)]
-        subprocess.run(picture, cwd=ROOT / "web", env=os.environ | {"PYTHON": sys.executable}, check=True)
+        subprocess.run(
+            picture, cwd=ROOT / "web", env=os.environ | {"PYTHON": sys.executable}, check=True
+        )
 
 
 def twins(mesh: TriangleMesh) -> Image:
     """A part on which vertices that transforms take to each other have one color, and those without twins are gray."""
     cell, count = mesh.diagonal / CELLS, len(mesh.positions)
     turns, shifts = np.split(motions_between(mesh.positions / cell, mesh.faces), [9], axis=1)
-    images = np.einsum("kij,nj->kni", turns.reshape(-1, 3, 3), mesh.positions) + cell * shifts[:, None]
+    images = (
+        np.einsum("kij,nj->kni", turns.reshape(-1, 3, 3), mesh.positions) + cell * shifts[:, None]
+    )
     apart, nearest = KDTree(mesh.positions).query(images)
     links = np.nonzero(apart < 2 * cell)
     graph = coo_array((np.ones(len(links[0])), (links[1], nearest[links])), shape=(count, count))
     _, first, of, alike = np.unique(
-        connected_components(graph, directed=False)[1], return_index=True, return_inverse=True, return_counts=True
+        connected_components(graph, directed=False)[1],
+        return_index=True,
+        return_inverse=True,
+        return_counts=True,
     )
     low, high = mesh.positions.min(axis=0), mesh.positions.max(axis=0)
-    colors = 0.45 + 0.55 * ((mesh.positions[first] - low) / (high - low))[of][mesh.faces].mean(axis=1)
+    colors = 0.45 + 0.55 * ((mesh.positions[first] - low) / (high - low))[of][mesh.faces].mean(
+        axis=1
+    )
     colors[(alike[of] == 1)[mesh.faces].any(axis=1)] = 0.75
     return render(mesh.positions, mesh.faces, PIXELS, view=view_matrix(-60.0, 50.0), colors=colors)
 
@@ -117,9 +136,21 @@ def celled(mesh: TriangleMesh) -> list[tuple[str, Image]]:
     own = cells.own[whole.faces[:, 0]]
     shades = np.random.default_rng(1).uniform(0.35, 1.0, (len(parts), 3))
     hues = np.random.default_rng(3).uniform(0.35, 1.0, (header.blocks, 3))[parts]
-    titles = f"{len(parts)} cells", f"{header.blocks} blocks of cells", "prolonged to all vertices", "with levels"
-    drawn = (whole.positions, shades[own]), (whole.positions, hues[own]), (base, None), (whole.positions, None)
-    images = [render(at @ UPRIGHT.T, whole.faces, SIDE, view=VIEW, colors=colors) for at, colors in drawn]
+    titles = (
+        f"{len(parts)} cells",
+        f"{header.blocks} blocks of cells",
+        "prolonged to all vertices",
+        "with levels",
+    )
+    drawn = (
+        (whole.positions, shades[own]),
+        (whole.positions, hues[own]),
+        (base, None),
+        (whole.positions, None),
+    )
+    images = [
+        render(at @ UPRIGHT.T, whole.faces, SIDE, view=VIEW, colors=colors) for at, colors in drawn
+    ]
     return list(zip(titles, images, strict=True))
 
 
@@ -131,7 +162,9 @@ def trials(mesh: TriangleMesh, target: Path) -> None:
     encoder.encode()
     drawn = [event for event in encoder.trials if event.action == "draw"]
     figure = Figure(figsize=(6.0, 3.2), layout="constrained")
-    axes = figure.add_subplot(xlabel="bytes of a trial", ylabel="share of its bound (1: looks the same)")
+    axes = figure.add_subplot(
+        xlabel="bytes of a trial", ylabel="share of its bound (1: looks the same)"
+    )
     axes.axhline(1.0, color="0.6", linestyle="--")
     for number, event in enumerate(drawn, 1):
         color = "tab:green" if event.error <= 1.0 else "tab:red"
@@ -142,7 +175,9 @@ def trials(mesh: TriangleMesh, target: Path) -> None:
 
 def pages(folder: Path, target: Path, work: Path) -> list[Path]:
     """Take pictures of the page of `bsm view` with a scan, its errors, and a textured asset on a phone."""
-    scan, asset = (_saved(folder / mesh, work)[0] for mesh in ("static/bunny_34834.ply", "assets/Duck.glb"))
+    scan, asset = (
+        _saved(folder / mesh, work)[0] for mesh in ("static/bunny_34834.ply", "assets/Duck.glb")
+    )
     scan_names = [target / Path(name).name for name in PAGES]
     _shoot(
         _shot(scan, scan_names[0], 3, size=(1280, 800)),
@@ -159,7 +194,10 @@ def tables(folder: Path, work: Path) -> None:
 
     for target, names in ((SCANS, SCANNED), (ASSETS, DRESSED)):
         saved = [_saved(folder / name, work) for name in names]
-        rows = [[work / f"{row}-{column}.jpg" for column in range(len(c.layers))] for row, (_, c) in enumerate(saved)]
+        rows = [
+            [work / f"{row}-{column}.jpg" for column in range(len(c.layers))]
+            for row, (_, c) in enumerate(saved)
+        ]
         shots = [
             _shot(page, picture, len(row), str(number + 1), size=(SIDE, SIDE), turns=turns)
             for (page, _), row, turns in zip(saved, rows, names.values(), strict=True)
@@ -170,7 +208,9 @@ def tables(folder: Path, work: Path) -> None:
         # Scans are rows, with Draco at the end; assets are columns.
         across = target == SCANS
         sheet = Pictures.new(
-            "RGB", tuple(np.multiply((SIDE, SIDE + LINE), (wide, high) if across else (high, wide))), "white"
+            "RGB",
+            tuple(np.multiply((SIDE, SIDE + LINE), (wide, high) if across else (high, wide))),
+            "white",
         )
         pen, font = ImageDraw.Draw(sheet), ImageFont.load_default(15)
         for i, (row, (_, content)) in enumerate(zip(rows, saved, strict=True)):
@@ -184,7 +224,9 @@ def tables(folder: Path, work: Path) -> None:
 
 def _saved(mesh: Path, work: Path) -> tuple[Path, Content]:
     """Save the page of a mesh; return it with what it shows."""
-    content = made(mesh.name, mesh.stat().st_size, bsm.read_mesh(mesh), "balanced", lambda stage, share: None)
+    content = made(
+        mesh.name, mesh.stat().st_size, bsm.read_mesh(mesh), "balanced", lambda stage, share: None
+    )
     page = work / f"{mesh.stem}.html"
     page.write_text(page_with([content]), encoding="utf-8")
     return page, content
@@ -196,7 +238,9 @@ def _shot(page: Path, picture: Path, layers: int, keys: str = "", **more: Any) -
 
 def _shoot(*shots: dict[str, Any]) -> None:
     environment = os.environ | {"BSM_PAGES": json.dumps(shots)}
-    subprocess.run(["node", "scripts/test.mjs", "pages"], cwd=ROOT / "web", env=environment, check=True)
+    subprocess.run(
+        ["node", "scripts/test.mjs", "pages"], cwd=ROOT / "web", env=environment, check=True
+    )
 
 
 def scan(path: Path) -> tuple[list[tuple[str, Image]], dict[str, str]]:
@@ -206,8 +250,14 @@ def scan(path: Path) -> tuple[list[tuple[str, Image]], dict[str, str]]:
     data = bsm.encode(mesh)
     theirs = _draco_within(mesh, len(data))
     bounds = bounds_of(mesh.positions @ UPRIGHT.T, VIEW)
-    figures = {"file": f"{path.stat().st_size / 1000:,.0f} kB", "balanced": f"{len(data) / 1000:.1f} kB"}
-    rows = ((f"scan: {figures['file']}", mesh), (f"BSM, default: {figures['balanced']}", bsm.decode(data)))
+    figures = {
+        "file": f"{path.stat().st_size / 1000:,.0f} kB",
+        "balanced": f"{len(data) / 1000:.1f} kB",
+    }
+    rows = (
+        (f"scan: {figures['file']}", mesh),
+        (f"BSM, default: {figures['balanced']}", bsm.decode(data)),
+    )
     last = (f"Draco at that size: {len(theirs) / 1000:.1f} kB", decode_draco(theirs))
     return [(name, _drawn(f.positions, f.faces, bounds)) for name, f in (*rows, last)], figures
 
@@ -216,7 +266,10 @@ def _draco_within(mesh: TriangleMesh, size: int) -> bytes:
     """Draco's largest file of at most so many bytes: a wider range of positions makes steps between those of bits."""
     extent = float(np.ptp(mesh.positions, axis=0).max())
     bits = next(bits for bits in range(4, 31) if len(encode_draco(mesh, bits, 10)) > size)
-    wider = (encode_draco(mesh, bits, 10, quantization_range=extent * by) for by in np.geomspace(1, 2, 25))
+    wider = (
+        encode_draco(mesh, bits, 10, quantization_range=extent * by)
+        for by in np.geomspace(1, 2, 25)
+    )
     return max((file for file in wider if len(file) <= size), key=len)
 
 
@@ -226,21 +279,28 @@ def part(folder: Path) -> list[tuple[str, Image]]:
     clean = bsm.denoise(noisy)
     bounds = bounds_of(noisy.positions)
     pairs: tuple[tuple[str, TriangleMesh], ...] = (("noisy", noisy), ("denoised", clean))
-    return [(name, render(mesh.positions, mesh.faces, PIXELS, bounds=bounds)) for name, mesh in pairs]
+    return [
+        (name, render(mesh.positions, mesh.faces, PIXELS, bounds=bounds)) for name, mesh in pairs
+    ]
 
 
 def steady(path: Path) -> Image:
     """Three frames of a noisy sequence, and under them what denoising makes of them."""
     with np.load(path) as arrays:
-        frames, faces = arrays["positions"][:16, :, [2, 1, 0]] * [1.0, 1.0, -1.0], arrays["faces"]  # from the side
-    noisy = np.stack([gaussian_along_normals(frame, faces, 0.2, seed) for seed, frame in enumerate(frames)])
+        # From the side.
+        frames, faces = arrays["positions"][:16, :, [2, 1, 0]] * [1.0, 1.0, -1.0], arrays["faces"]
+    noisy = np.stack(
+        [gaussian_along_normals(frame, faces, 0.2, seed) for seed, frame in enumerate(frames)]
+    )
     rows = (noisy[::7], list(FrameDenoiser(noisy[0], faces)(noisy))[::7])
     bounds = bounds_of(noisy[::7].reshape(-1, 3))
     drawn = [[render(frame, faces, SIDE, bounds=bounds) for frame in row] for row in rows]
     return np.concatenate([np.concatenate(row, axis=1) for row in drawn])
 
 
-def _drawn(positions: Positions, faces: Faces, bounds: tuple[Image, float], pixels: int = PIXELS) -> Image:
+def _drawn(
+    positions: Positions, faces: Faces, bounds: tuple[Image, float], pixels: int = PIXELS
+) -> Image:
     return render(positions @ UPRIGHT.T, faces, pixels, view=VIEW, bounds=bounds)
 
 
@@ -266,13 +326,26 @@ def motion(path: Path, target: Path) -> str:
     font, images = ImageFont.load_default(15), []
     for index in chosen:
         key = shown[int(np.searchsorted(keys, index, side="right")) - 1]
-        sides = [_drawn(positions[index], faces, bounds, SIDE), _drawn(key.positions, key.faces, bounds, SIDE)]
+        sides = [
+            _drawn(positions[index], faces, bounds, SIDE),
+            _drawn(key.positions, key.faces, bounds, SIDE),
+        ]
         sheet = Pictures.new("RGB", (2 * SIDE, SIDE + LINE), "white")
         for number, (side, title) in enumerate(zip(sides, titles, strict=True)):
             sheet.paste(Pictures.fromarray(np.uint8(255 * side)), (number * SIDE, LINE))
-            ImageDraw.Draw(sheet).text(((number + 0.5) * SIDE, LINE / 2), title, fill="black", font=font, anchor="mm")
+            ImageDraw.Draw(sheet).text(
+                ((number + 0.5) * SIDE, LINE / 2), title, fill="black", font=font, anchor="mm"
+            )
         images.append(sheet)
-    images[0].save(target, save_all=True, append_images=images[1:], duration=MILLISECONDS, loop=0, quality=60, method=6)
+    images[0].save(
+        target,
+        save_all=True,
+        append_images=images[1:],
+        duration=MILLISECONDS,
+        loop=0,
+        quality=60,
+        method=6,
+    )
     return f"{path.stem}: {frames.nbytes} bytes as float32, {len(data)} as a stream"
 
 

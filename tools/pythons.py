@@ -26,10 +26,17 @@ CHOSEN = "(test_vectors and good and not command_lines and not wrong_decoder) or
 
 def main() -> None:
     """List, or try."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--try", dest="tried", action="store_true", help="install and test on the oldest and newest")
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument(
-        "--within", type=Path, metavar="ENV", help="where the package is installed already; its numpy goes"
+        "--try", dest="tried", action="store_true", help="install and test on the oldest and newest"
+    )
+    parser.add_argument(
+        "--within",
+        type=Path,
+        metavar="ENV",
+        help="where the package is installed already; its numpy goes",
     )
     args = parser.parse_args()
     found = pythons()
@@ -73,7 +80,9 @@ def _candidates() -> Iterator[Path]:
     for minor in range(11, 30):
         if program := shutil.which(f"python3.{minor}"):
             yield Path(program)
-    yield from sorted(Path(os.environ.get("PYENV_ROOT", Path.home() / ".pyenv")).glob("versions/*/bin/python"))
+    yield from sorted(
+        Path(os.environ.get("PYENV_ROOT", Path.home() / ".pyenv")).glob("versions/*/bin/python")
+    )
 
 
 def required() -> str:
@@ -103,18 +112,39 @@ def attempt(python: Path, numpy: str) -> None:
 
 def trial(own: Path, *packages: str) -> None:
     """Install what is missing, run the demonstration and a few tests."""
-    clean = {name: value for name, value in os.environ.items() if name not in ("PYTHONPATH", "VIRTUAL_ENV")}
+    clean = {
+        name: value
+        for name, value in os.environ.items()
+        if name not in ("PYTHONPATH", "VIRTUAL_ENV")
+    }
     if platform.machine() in ("x86_64", "AMD64"):
-        clean["CMAKE_ARGS"] = "-DBSM_LEVEL=1"  # kernels for one level of processors compile in half the time
+        # Kernels for one level of processors compile in half the time.
+        clean["CMAKE_ARGS"] = "-DBSM_LEVEL=1"
     pip: list[str | Path] = [own, "-m", "pip", "install", "-q", "--disable-pip-version-check"]
     subprocess.run([*pip, *packages, "pytest", "zstandard"], check=True, env=clean)
     code = "import sys, numpy; print(f'Python {sys.version.split()[0]}, numpy {numpy.__version__}')"
     subprocess.run([own, "-c", code], check=True, env=clean)
     bsm = own.parent / "bsm"
     with tempfile.TemporaryDirectory() as folder:
-        subprocess.run([bsm, "demo", "-q", "-o", "plain", "--vertices", "2000"], check=True, env=clean, cwd=folder)
+        subprocess.run(
+            [bsm, "demo", "-q", "-o", "plain", "--vertices", "2000"],
+            check=True,
+            env=clean,
+            cwd=folder,
+        )
         subprocess.run([bsm, "verify", "plain/bsm_demo.bsm"], check=True, env=clean, cwd=folder)
-    tests: list[str | Path] = [own, "-m", "pytest", "-q", "-x", "-p", "no:cacheprovider", "-k", CHOSEN, *TESTS]
+    tests: list[str | Path] = [
+        own,
+        "-m",
+        "pytest",
+        "-q",
+        "-x",
+        "-p",
+        "no:cacheprovider",
+        "-k",
+        CHOSEN,
+        *TESTS,
+    ]
     subprocess.run(tests, check=True, env=clean, cwd=ROOT)
 
 

@@ -34,20 +34,29 @@ def box(*sides: float) -> Field:
 
     def field(places: Floats) -> Floats:
         off = np.abs(places @ turn) - np.array(sides)
-        return np.asarray(np.linalg.norm(np.maximum(off, 0.0), axis=-1) + np.minimum(off.max(axis=-1), 0.0))
+        return np.asarray(
+            np.linalg.norm(np.maximum(off, 0.0), axis=-1) + np.minimum(off.max(axis=-1), 0.0)
+        )
 
     return field
 
 
-def voxelized(field: Field, cells: int, thick: float = 1.0, reach: float = 1.0, copies: float = 1.0) -> Scan:
+def voxelized(
+    field: Field, cells: int, thick: float = 1.0, reach: float = 1.0, copies: float = 1.0
+) -> Scan:
     """The surface of a binary volume of `cells` cells a side, the slices along z `thick` cells thick and stored as
     `copies` thinner ones, which are the nearest slice."""
     step = 2.0 * reach / (cells - 2 * MARGIN)
     steps = step * np.array([1.0, 1.0, thick])
     counts = np.array([cells, cells, round(cells / thick)])
     origin = -0.5 * steps * (counts - 1)
-    ticks = [low + size * np.arange(count) for low, size, count in zip(origin, steps, counts, strict=True)]
-    nearest = ((np.arange(round(counts[2] * copies)) + 0.5) / copies).astype(int).clip(max=counts[2] - 1)
+    ticks = [
+        low + size * np.arange(count)
+        for low, size, count in zip(origin, steps, counts, strict=True)
+    ]
+    nearest = (
+        ((np.arange(round(counts[2] * copies)) + 0.5) / copies).astype(int).clip(max=counts[2] - 1)
+    )
     inside = (field(np.stack(np.meshgrid(*ticks, indexing="ij"), axis=-1)) < 0.0)[:, :, nearest]
     steps[2] /= copies
     origin[2] -= 0.5 * (copies - 1) * steps[2]
@@ -70,10 +79,15 @@ def voxelized_mesh(positions: Positions, faces: Faces, cells: int, thick: float 
     )
     geometry, random = face_geometry(positions, faces), np.random.default_rng(0)
     chosen = random.choice(len(faces), SAMPLES, p=geometry.areas / geometry.areas.sum())
-    points = np.einsum("ij,ijk->ik", random.dirichlet(np.ones(3), SAMPLES), positions[faces[chosen]])
+    points = np.einsum(
+        "ij,ijk->ik", random.dirichlet(np.ones(3), SAMPLES), positions[faces[chosen]]
+    )
     near = spatial.cKDTree(points).query(face_geometry(made, triangles).centroids)[1]
     return Scan(
-        made, triangles, geometry.normals[chosen[near]], lambda moved: distances_to_surface(moved, positions, faces)
+        made,
+        triangles,
+        geometry.normals[chosen[near]],
+        lambda moved: distances_to_surface(moved, positions, faces),
     )
 
 
@@ -91,13 +105,16 @@ def filled(positions: Positions, faces: Faces, counts: np.ndarray) -> Mask:
 
     def turn(one: Floats, other: Floats, at: Floats) -> Floats:
         return np.asarray(
-            (other[:, 0] - one[:, 0]) * (at[:, 1] - one[:, 1]) - (other[:, 1] - one[:, 1]) * (at[:, 0] - one[:, 0])
+            (other[:, 0] - one[:, 0]) * (at[:, 1] - one[:, 1])
+            - (other[:, 1] - one[:, 1]) * (at[:, 0] - one[:, 0])
         )
 
     parts = np.stack([turn(b, c, place), turn(c, a, place), turn(a, b, place)], axis=1)
     whole = parts.sum(axis=1)
     crossed = ((parts > 0.0).all(axis=1) | (parts < 0.0).all(axis=1)) & (whole != 0.0)
-    height = (parts * np.stack([a[:, 2], b[:, 2], c[:, 2]], axis=1))[crossed].sum(axis=1) / whole[crossed]
+    height = (parts * np.stack([a[:, 2], b[:, 2], c[:, 2]], axis=1))[crossed].sum(axis=1) / whole[
+        crossed
+    ]
     flips = np.zeros((*counts[:2], counts[2] + 1), dtype=np.int64)
     at = place[crossed]
     np.add.at(flips, (at[:, 0], at[:, 1], np.clip(np.ceil(height), 0, counts[2]).astype(int)), 1)

@@ -25,8 +25,10 @@ from bsm.codec.arrays import Faces, Floats, Mask, Positions
 from bsm.codec.geometry.metrics import distances_to_surface, face_geometry, face_normals
 from bsm.ground.pictures import nearest_faces
 
-BASELINE_EIGHTHS = 8.0 * 0.075  # metres between projector and camera, by the eighths of a pixel that it resolves
-WINDOW_SPREAD, LATERAL, SHAPED = 2.5, 0.5, 0.5  # pixels: of the window that is matched, of places, of flight's filter
+# Metres between projector and camera, by the eighths of a pixel that it resolves.
+BASELINE_EIGHTHS = 8.0 * 0.075
+# Pixels: of the window that is matched, of places, of flight's filter.
+WINDOW_SPREAD, LATERAL, SHAPED = 2.5, 0.5, 0.5
 JUMP = 12.0  # pixels' widths between neighbors from which on they are on different surfaces
 
 
@@ -45,7 +47,9 @@ def axial(depth: Floats, slant: Floats) -> Floats:
     return np.asarray(0.0012 + 0.0019 * np.square(depth - 0.4) + 0.0001 / np.sqrt(depth) * steep)
 
 
-def structured_light(depth: Floats, slant: Floats, focal: float, random: np.random.Generator) -> Floats:
+def structured_light(
+    depth: Floats, slant: Floats, focal: float, random: np.random.Generator
+) -> Floats:
     rows, columns = np.indices(depth.shape) + random.normal(0.0, LATERAL, (2, *depth.shape))
     seen = ndimage.map_coordinates(depth, (rows, columns), order=1, mode="nearest")
     shared = ndimage.gaussian_filter(random.normal(size=depth.shape), WINDOW_SPREAD)
@@ -56,9 +60,13 @@ def structured_light(depth: Floats, slant: Floats, focal: float, random: np.rand
     return np.asarray(focal * BASELINE_EIGHTHS / np.round(eighths))
 
 
-def time_of_flight(depth: Floats, slant: Floats, focal: float, random: np.random.Generator) -> Floats:
+def time_of_flight(
+    depth: Floats, slant: Floats, focal: float, random: np.random.Generator
+) -> Floats:
     noise = ndimage.gaussian_filter(random.normal(size=depth.shape), SHAPED)
-    return np.asarray(depth + noise / noise.std() * 0.0015 * np.square(depth) / np.maximum(np.cos(slant), 0.2))
+    return np.asarray(
+        depth + noise / noise.std() * 0.0015 * np.square(depth) / np.maximum(np.cos(slant), 0.2)
+    )
 
 
 CAMERAS = {
@@ -79,7 +87,9 @@ class Scan:
     def angle(self, positions: Positions) -> float:
         """Mean angle of the faces to the true surface, degrees, where there is one."""
         cosines = np.einsum("ij,ij->i", face_normals(positions, self.faces), self.normals)
-        return float(np.degrees(np.arccos(np.clip(cosines, -1.0, 1.0)))[self.normals.any(axis=1)].mean())
+        return float(
+            np.degrees(np.arccos(np.clip(cosines, -1.0, 1.0)))[self.normals.any(axis=1)].mean()
+        )
 
     def rms(self, positions: Positions) -> float:
         return float(np.sqrt(np.square(self.offset(positions)).mean()))
@@ -89,7 +99,14 @@ def placed(positions: Positions, camera: Camera, turn: Floats) -> Positions:
     """The mesh turned, at the size that fills most of the picture, before a camera that looks along z."""
     middle = 0.5 * (positions.min(axis=0) + positions.max(axis=0))
     turned = (positions - middle) @ turn.T
-    size = 0.85 * 0.5 * camera.pixels / camera.focal * camera.far / np.linalg.norm(turned[:, :2], axis=1).max()
+    size = (
+        0.85
+        * 0.5
+        * camera.pixels
+        / camera.focal
+        * camera.far
+        / np.linalg.norm(turned[:, :2], axis=1).max()
+    )
     return np.asarray(size * turned + [0.0, 0.0, camera.far])
 
 
@@ -99,7 +116,8 @@ def render(positions: Positions, faces: Faces, camera: Camera) -> tuple[Floats, 
     corners = np.column_stack([screen, 1.0 / positions[:, 2]])
     owner = nearest_faces(corners, faces, camera.pixels)
     first, second, third = (corners[faces[owner, corner]] for corner in range(3))
-    slope = np.cross(second - first, third - first)  # of nearness, which is linear in columns and rows
+    # Of nearness, which is linear in columns and rows.
+    slope = np.cross(second - first, third - first)
     rows, columns = np.indices(owner.shape) + 0.5
     away = slope[..., 0] * (columns - first[..., 0]) + slope[..., 1] * (rows - first[..., 1])
     nearness = first[..., 2] - away / slope[..., 2]
@@ -114,7 +132,9 @@ def _rays(camera: Camera) -> Floats:
     return np.stack([columns, rows, np.ones_like(rows)], axis=2)
 
 
-def photograph(positions: Positions, faces: Faces, camera: Camera, seed: int) -> tuple[Floats, Floats]:
+def photograph(
+    positions: Positions, faces: Faces, camera: Camera, seed: int
+) -> tuple[Floats, Floats]:
     """True and measured depth at each pixel."""
     depth, slant = render(positions, faces, camera)
     seen = np.isfinite(depth)
@@ -124,12 +144,19 @@ def photograph(positions: Positions, faces: Faces, camera: Camera, seed: int) ->
     return depth, np.where(seen, measured, depth)
 
 
-def view(positions: Positions, faces: Faces, camera: Camera, seed: int, turn: Floats | None = None) -> Scan:
+def view(
+    positions: Positions, faces: Faces, camera: Camera, seed: int, turn: Floats | None = None
+) -> Scan:
     """What the camera makes of one pose: a grid of pixels, without the triangles that reach across gaps."""
     placed_ = placed(positions, camera, turning(seed) if turn is None else turn)
     depth, measured = photograph(placed_, faces, camera, seed)
     number = np.arange(depth.size).reshape(depth.shape)
-    a, b, c, d = number[:-1, :-1].ravel(), number[:-1, 1:].ravel(), number[1:, :-1].ravel(), number[1:, 1:].ravel()
+    a, b, c, d = (
+        number[:-1, :-1].ravel(),
+        number[:-1, 1:].ravel(),
+        number[1:, :-1].ravel(),
+        number[1:, 1:].ravel(),
+    )
     grid = np.concatenate([np.stack([a, c, b], axis=1), np.stack([b, c, d], axis=1)])
     grid = grid[_together(measured.ravel()[grid], camera)]
     kept = np.unique(grid)
@@ -151,7 +178,9 @@ def turning(seed: int) -> Floats:
     return np.asarray(spatial.transform.Rotation.random(random_state=seed).as_matrix())
 
 
-def isosurface(values: Floats, steps: Floats | float, origin: Floats | float) -> tuple[Positions, Faces]:
+def isosurface(
+    values: Floats, steps: Floats | float, origin: Floats | float
+) -> tuple[Positions, Faces]:
     """Marching cubes at 0 of values that are positive inside, whose normals point outwards."""
     filters, data, numpy_support = (
         importlib.import_module(f"vtkmodules.{name}")
@@ -172,26 +201,36 @@ def isosurface(values: Floats, steps: Floats | float, origin: Floats | float) ->
     return corners.astype(np.float64) * steps + origin, np.ascontiguousarray(faces, np.int32)
 
 
-TRUNCATION, FALSE = 4.0, 2.0  # voxels: how far views reach; and from the truth, where surface is made up and cut away
+# Voxels: how far views reach; and from the truth, where surface is made up and cut away.
+TRUNCATION, FALSE = 4.0, 2.0
 SAMPLES = 400_000
 
 
-def fused(positions: Positions, faces: Faces, camera: Camera, seed: int, poses: int = 12, cells: int = 90) -> Scan:
+def fused(
+    positions: Positions, faces: Faces, camera: Camera, seed: int, poses: int = 12, cells: int = 90
+) -> Scan:
     """Fuse views: average the distances along their rays on a grid, and mesh the surface where they are 0."""
     lone = placed(positions, camera, turning(seed)) - [0.0, 0.0, camera.far]
     half = 1.06 * np.abs(lone).max()
     step = 2.0 * half / (cells - 1)
-    voxels = np.stack(np.meshgrid(*3 * [np.linspace(-half, half, cells)], indexing="ij"), axis=-1).reshape(-1, 3)
+    voxels = np.stack(
+        np.meshgrid(*3 * [np.linspace(-half, half, cells)], indexing="ij"), axis=-1
+    ).reshape(-1, 3)
     sums, weights = np.zeros(len(voxels)), np.zeros(len(voxels))
     for pose in range(poses):
         height = 1.0 - (2.0 * pose + 1.0) / poses
         level = math.acos(height)
-        turn = spatial.transform.Rotation.from_euler("zx", (pose * math.pi * (1.0 + math.sqrt(5.0)), level)).as_matrix()
+        turn = spatial.transform.Rotation.from_euler(
+            "zx", (pose * math.pi * (1.0 + math.sqrt(5.0)), level)
+        ).as_matrix()
         _, measured = photograph(lone @ turn.T + [0.0, 0.0, camera.far], faces, camera, seed + pose)
         there = voxels @ turn.T + [0.0, 0.0, camera.far]
         at = np.floor(there[:, :2] / there[:, 2:] * camera.focal + 0.5 * camera.pixels).astype(int)
         inside = ((at >= 0) & (at < camera.pixels)).all(axis=1)
-        apart = np.where(inside, measured[tuple(np.clip(at, 0, camera.pixels - 1).T[::-1])], np.inf) - there[:, 2]
+        apart = (
+            np.where(inside, measured[tuple(np.clip(at, 0, camera.pixels - 1).T[::-1])], np.inf)
+            - there[:, 2]
+        )
         counted = apart > -TRUNCATION * step
         sums += np.where(counted, np.minimum(apart / (TRUNCATION * step), 1.0), 0.0)
         weights += counted

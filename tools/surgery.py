@@ -8,8 +8,24 @@ from typing import Any
 
 import msgpack
 
-from bsm.bitstream.container.header import HEADER_FIELDS, LAW, LAW_OF_SEQUENCES, PAPER, Declaration, Header, fields_of
-from bsm.bitstream.container.packets import BRIEF, BRIEF_TURNED, WRITERS, Declared, End, Metadata, Packet
+from bsm.bitstream.container.header import (
+    HEADER_FIELDS,
+    LAW,
+    LAW_OF_SEQUENCES,
+    PAPER,
+    Declaration,
+    Header,
+    fields_of,
+)
+from bsm.bitstream.container.packets import (
+    BRIEF,
+    BRIEF_TURNED,
+    WRITERS,
+    Declared,
+    End,
+    Metadata,
+    Packet,
+)
 from bsm.bitstream.container.wire import (
     MAGIC,
     MAX_VARINT_BYTES,
@@ -87,11 +103,18 @@ def brief_frames(payload: bytes) -> Frames:
     n, m, *grid, congruence = (cursor.varint() for _ in range(6))
     scale, *center = struct.unpack(">4f", cursor.take(16))
     more = {"turn": struct.unpack(">3f", cursor.take(12))} if key == BRIEF_TURNED else {}
-    header = header_frame(vertices=n, faces=m, grid=grid, congruence=congruence, scale=scale, center=center, **more)
+    header = header_frame(
+        vertices=n, faces=m, grid=grid, congruence=congruence, scale=scale, center=center, **more
+    )
     connectivity = cursor.take(cursor.varint())
     values = write_varint(0) + write_varint(n) + cursor.rest()
     named = [(int(FrameType.METADATA), packed) for _, packed in notes if isinstance(packed, bytes)]
-    return [header, *named, (int(FrameType.CONNECTIVITY), connectivity), (int(FrameType.GRID), values)]
+    return [
+        header,
+        *named,
+        (int(FrameType.CONNECTIVITY), connectivity),
+        (int(FrameType.GRID), values),
+    ]
 
 
 def first_payload(stream: bytes) -> bytes:
@@ -152,7 +175,9 @@ def stream_of(frames: Frames, version: int | None = None, positions: bytes = b""
     Without a version it has the least that its headers need (F 2.2), as encoders write it.
     """
     version = VERSION + max(map(_minor, frames), default=0) if version is None else version
-    body = MAGIC + bytes([version]) + b"".join(write_frame(kind, payload) for kind, payload in frames)
+    body = (
+        MAGIC + bytes([version]) + b"".join(write_frame(kind, payload) for kind, payload in frames)
+    )
     sums = zlib.crc32(body).to_bytes(4, "little") + positions
     return body + write_frame(FrameType.END, write_varint(len(frames)) + sums)
 
@@ -179,7 +204,8 @@ def header_frame(**values: Any) -> tuple[int, bytes]:
     entries = {
         HEADER_FIELDS[name].key: HEADER_FIELDS[name].normalize(value)
         for name, value in values.items()
-        if name not in PLACES and HEADER_FIELDS[name].normalize(value) != HEADER_FIELDS[name].default
+        if name not in PLACES
+        and HEADER_FIELDS[name].normalize(value) != HEADER_FIELDS[name].default
     }
     _set_parts(entries, {name: value for name, value in values.items() if name in PLACES})
     return FrameType.HEADER, write_map(sorted(entries.items()))
@@ -188,7 +214,9 @@ def header_frame(**values: Any) -> tuple[int, bytes]:
 def change_entries(entries: dict[int, Any], changes: dict[str, Any]) -> None:
     """Change fields of a header by name, in place (None: not stored), those within `paper` and `sequence` as well."""
     _set_parts(entries, {name: value for name, value in changes.items() if name in PLACES})
-    entries |= {HEADER_FIELDS[name].key: value for name, value in changes.items() if name not in PLACES}
+    entries |= {
+        HEADER_FIELDS[name].key: value for name, value in changes.items() if name not in PLACES
+    }
 
 
 def _set_parts(entries: dict[int, Any], changes: dict[str, Any]) -> None:
@@ -218,7 +246,11 @@ def first_entries(stream: bytes) -> dict[int, Any]:
     """The fields in the header of a stream; empty if it cannot be read."""
     try:
         frame = next(spans_of(stream), None)
-        return header_entries(frame.payload) if frame is not None and frame.type == FrameType.HEADER else {}
+        return (
+            header_entries(frame.payload)
+            if frame is not None and frame.type == FrameType.HEADER
+            else {}
+        )
     except CorruptError:
         return {}
 

@@ -81,9 +81,13 @@ def example(folder: Path, number: int) -> Example | None:
     random = np.random.default_rng(number)
     finer = float(random.uniform(1.0, FINER)) if random.random() < 0.5 else 1.0
     if number % 6 == 5:
-        positions, faces = _crop(folder, TRAINING_MESHES[number // 6 % 3], round(CROP * finer), random)
+        positions, faces = _crop(
+            folder, TRAINING_MESHES[number // 6 % 3], round(CROP * finer), random
+        )
     else:
-        positions, faces = made_shape(FIRST_SHAPE + number, round(float(random.integers(*CELLS)) * np.sqrt(finer)))
+        positions, faces = made_shape(
+            FIRST_SHAPE + number, round(float(random.integers(*CELLS)) * np.sqrt(finer))
+        )
     if finer > 1.0:
         free = np.zeros(len(positions), np.bool_)
         positions, faces, *_ = collapsed(positions, faces, free, round(len(faces) / finer))
@@ -98,22 +102,33 @@ def example(folder: Path, number: int) -> Example | None:
     elif kind < 10:
         noisy = gaussian_isotropic(positions, faces, 0.7 * sigma, number)
     elif kind < 13:
-        noisy = impulsive(positions, faces, 1.4 * sigma, float(random.choice([0.1, 0.3, 0.5])), number)
+        noisy = impulsive(
+            positions, faces, 1.4 * sigma, float(random.choice([0.1, 0.3, 0.5])), number
+        )
     elif kind < 15:
         noisy = uniform_along_normals(positions, faces, sigma, number)
     elif kind < 21:
-        noisy = correlated_along_normals(positions, faces, sigma, number, int(random.integers(1, 6)))
+        noisy = correlated_along_normals(
+            positions, faces, sigma, number, int(random.integers(1, 6))
+        )
     elif kind < 24:
         noisy = gaussian_along_axis(positions, faces, sigma, number, tuple(random.normal(size=3)))
     else:
         camera = CAMERAS[str(random.choice(list(CAMERAS)))]
-        scan = view(positions, faces, camera._replace(pixels=camera.pixels // 2, focal=camera.focal / 2.0), number)
+        scan = view(
+            positions,
+            faces,
+            camera._replace(pixels=camera.pixels // 2, focal=camera.focal / 2.0),
+            number,
+        )
         noisy, faces, normals = scan.positions, scan.faces, scan.normals
     chosen = random.permutation(np.flatnonzero(normals.any(axis=1)))[:FACES]
     return Example(faces, noisy, noisy, normals[chosen], chosen) if len(chosen) == FACES else None
 
 
-def _crop(folder: Path, name: str, most: int, random: np.random.Generator) -> tuple[Positions, Faces]:
+def _crop(
+    folder: Path, name: str, most: int, random: np.random.Generator
+) -> tuple[Positions, Faces]:
     positions, faces, centroids = _scanned(folder / "static" / f"{name}.ply")
     center = centroids[random.integers(len(centroids))]
     near = np.argsort(np.square(centroids - center).sum(axis=1), kind="stable")[:most]
@@ -141,7 +156,9 @@ def improved(network: Network, case: Example) -> Example:
     topology = Topology(case.faces, len(case.noisy))
     near = surroundings(case.noisy, topology, RADIUS)
     normals = regressed_normals(descriptions(case.positions, topology, near), network)
-    return replace(case, positions=follow_normals(case.positions, topology, normals, VERTEX_ITERATIONS))
+    return replace(
+        case, positions=follow_normals(case.positions, topology, normals, VERTEX_ITERATIONS)
+    )
 
 
 def mirrored(x: bool, y: bool) -> tuple[Order, Singles]:
@@ -153,7 +170,9 @@ def mirrored(x: bool, y: bool) -> tuple[Order, Singles]:
     for ring, sector in product(range(RINGS), range(SECTORS)):
         turned = SECTORS // 2 - sector if x else sector
         place = circles + 4 * (ring * SECTORS + sector)
-        order[place : place + 4] = circles + 4 * (ring * SECTORS + (-turned if y else turned) % SECTORS) + np.arange(4)
+        order[place : place + 4] = (
+            circles + 4 * (ring * SECTORS + (-turned if y else turned) % SECTORS) + np.arange(4)
+        )
         vectors.append(place)
     for place in vectors:
         signs[place : place + 3] = [-1.0 if x else 1.0, -1.0 if y else 1.0, 1.0]
@@ -175,14 +194,18 @@ def train(parts: Sequence[tuple[Singles, Singles]], seed: int, rounds: int = ROU
     linear = [torch.nn.Linear(*sizes) for sizes in pairwise((NUMBERS, *WIDTHS, 3))]
     with torch.no_grad():
         linear[-1].weight *= 0.01  # with the filtered normal as it is
-    model = torch.nn.Sequential(*(part for layer in linear[:-1] for part in (layer, torch.nn.SiLU())), linear[-1])
+    model = torch.nn.Sequential(
+        *(part for layer in linear[:-1] for part in (layer, torch.nn.SiLU())), linear[-1]
+    )
     model.to(device)
     arrays = (mean, scale, numbers, wanted, weights)
     middle, factor, given, truth, weight = (torch.from_numpy(array).to(device) for array in arrays)
     order, flip = (torch.from_numpy(array).to(device) for array in mirrored(False, True))
     steps = -(-len(given) // BATCH)
     descent = torch.optim.Adam(model.parameters(), RATE)
-    rate = torch.optim.lr_scheduler.OneCycleLR(descent, RATE, total_steps=rounds * steps, pct_start=0.05)
+    rate = torch.optim.lr_scheduler.OneCycleLR(
+        descent, RATE, total_steps=rounds * steps, pct_start=0.05
+    )
     for turn in range(rounds):
         total = 0.0
         for chosen in torch.randperm(len(given), device=device).chunk(steps):
@@ -198,7 +221,10 @@ def train(parts: Sequence[tuple[Singles, Singles]], seed: int, rounds: int = ROU
             rate.step()
             total += loss.detach()
         print(f"  round {turn + 1:2d}: {np.degrees(float(total) / steps):.3f}", flush=True)
-    layers = [(layer.weight.detach().cpu().numpy().T, layer.bias.detach().cpu().numpy()) for layer in linear]
+    layers = [
+        (layer.weight.detach().cpu().numpy().T, layer.bias.detach().cpu().numpy())
+        for layer in linear
+    ]
     return Network(mean, scale, tuple(layers))
 
 
@@ -206,7 +232,9 @@ def main(arguments: list[str] | None = None) -> int:
     """Train and write."""
     parser = parser_of(__doc__)
     parser.add_argument("meshes", type=Path, help="folder with static/")
-    parser.add_argument("--output", type=Path, default=WEIGHTS, help=f"file ({WEIGHTS.name} of the package)")
+    parser.add_argument(
+        "--output", type=Path, default=WEIGHTS, help=f"file ({WEIGHTS.name} of the package)"
+    )
     parser.add_argument("--examples", type=int, default=4800, help="noisy meshes (4800)")
     chosen = parser.parse_args(arguments)
     begin = time.perf_counter()
@@ -216,13 +244,19 @@ def main(arguments: list[str] | None = None) -> int:
         cases = [case for case in made if case]
         for stage in range(STAGES):
             parts = list(pool.map(described, cases, chunksize=4))
-            print(f"stage {stage + 1}: {len(parts)} meshes, {time.perf_counter() - begin:.0f} s", flush=True)
+            print(
+                f"stage {stage + 1}: {len(parts)} meshes, {time.perf_counter() - begin:.0f} s",
+                flush=True,
+            )
             networks.append(train([part for k, part in enumerate(parts) if k % HELD_OUT], stage))
             # The next stage learns on results of the weights in the file, which are rounded to half precision.
             write_networks(chosen.output, networks)
             read_networks.cache_clear()
             network = read_networks(chosen.output)[stage]
-            apart = [np.linalg.norm(network(numbers) - wanted, axis=1).mean() for numbers, wanted in parts[::HELD_OUT]]
+            apart = [
+                np.linalg.norm(network(numbers) - wanted, axis=1).mean()
+                for numbers, wanted in parts[::HELD_OUT]
+            ]
             left = np.degrees(np.exp(np.log(apart).mean()))
             print(f"held out: {left:.3f} degrees, {time.perf_counter() - begin:.0f} s", flush=True)
             if stage + 1 < STAGES:

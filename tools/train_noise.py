@@ -32,7 +32,16 @@ from tools.made_shapes import made_shape
 from tools.scans import CAMERAS, view
 
 HELD_OUT = (
-    *("fr_casting", "fr_chinese_lion", "sharpsphere", "block", "trim_star", "c3d_spot", "gargoyle_10002", "dance"),
+    *(
+        "fr_casting",
+        "fr_chinese_lion",
+        "sharpsphere",
+        "block",
+        "trim_star",
+        "c3d_spot",
+        "gargoyle_10002",
+        "dance",
+    ),
     *("made 13", "made 14", "bumpy 1", "bumpy 5", "tiago", "kinova", "baxter"),
 )
 """Parts of names."""
@@ -53,7 +62,13 @@ NOISES: dict[str, Callable[..., Positions]] = {
     "part": partial(noise.gaussian_in_part, fraction=0.5),
 }
 WHOLE = ("white", "isotropic", "impulses", "shared 2", "shared 4")
-RIGHT = {"white": WHOLE, "correlated": WHOLE, "local": ("part",), "axis": ("axis", "range"), "view": ("camera",)}
+RIGHT = {
+    "white": WHOLE,
+    "correlated": WHOLE,
+    "local": ("part",),
+    "axis": ("axis", "range"),
+    "view": ("camera",),
+}
 """Noises that a rule has to accept."""
 CLEAN_WEIGHT, RIDGE, MARGIN = 30.0, 0.3, 0.25
 SIGNS = np.array([1.0, 0.0, -1.0, -1.0, -1.0, -1.0, -1.0])  # of the weights of `MEASURES`; 0: any
@@ -74,11 +89,15 @@ def bumpy(rows: int, waves: int, bumps: float) -> tuple[Positions, Faces]:
     u, v = 2.0 * np.pi * row / rows, 2.0 * np.pi * column / columns
     radius = 0.35 * (1.0 + bumps * np.sin(waves * u) * np.sin((waves // 2 + 1) * v))
     across = 1.0 + radius * np.cos(v)
-    positions = np.stack([across * np.cos(u), across * np.sin(u), radius * np.sin(v)], axis=-1).reshape(-1, 3)
+    positions = np.stack(
+        [across * np.cos(u), across * np.sin(u), radius * np.sin(v)], axis=-1
+    ).reshape(-1, 3)
     number = np.arange(rows * columns).reshape(rows, columns)
     right, below = np.roll(number, -1, axis=0), np.roll(number, -1, axis=1)
     opposite = np.roll(right, -1, axis=1)
-    corners = np.concatenate([np.stack([number, right, opposite], -1), np.stack([number, opposite, below], -1)])
+    corners = np.concatenate(
+        [np.stack([number, right, opposite], -1), np.stack([number, opposite, below], -1)]
+    )
     return positions, np.ascontiguousarray(corners.reshape(-1, 3), np.int32)
 
 
@@ -95,7 +114,11 @@ def shapes(folder: Path) -> Iterator[tuple[str, Positions, Faces]]:
             apart = np.square(centroids - centroids[random.integers(len(centroids))]).sum(axis=1)
             near = np.argsort(apart, kind="stable")[: int(random.integers(*PIECE))]
             used, corners = np.unique(faces[near], return_inverse=True)
-            yield f"{path.stem}, piece {seed}", positions[used], corners.reshape(-1, 3).astype(np.int32)
+            yield (
+                f"{path.stem}, piece {seed}",
+                positions[used],
+                corners.reshape(-1, 3).astype(np.int32),
+            )
     for path in sorted((folder / "dynamic").glob("*.npz")):
         with np.load(path) as arrays:
             yield path.stem, arrays["positions"][20].astype(np.float64), arrays["faces"]
@@ -166,23 +189,33 @@ def fit(values: Floats, noisy: Floats) -> Floats:
 
 def report(rule: str, cases: list[Example]) -> None:
     """Fit one rule to its cases, and print it and its results."""
-    counted = [case for case in cases if case.rule == rule and case.noise in ("clean", *RIGHT[rule])]
+    counted = [
+        case for case in cases if case.rule == rule and case.noise in ("clean", *RIGHT[rule])
+    ]
     values = np.stack([case.measures for case in counted])
     noisy = np.array([float(case.noise in RIGHT[rule]) for case in counted])
     held = np.array([any(part in case.name for part in HELD_OUT) for case in counted])
     weights = fit(values[~held], noisy[~held])
     clean, few = values[~held & (noisy == 0.0)], MEASURES.index("few")
-    weights[-1] -= (clean @ weights[:-1] + weights[-1])[clean[:, few] == 0.0].max(initial=-2.0 * MARGIN) + MARGIN
+    weights[-1] -= (clean @ weights[:-1] + weights[-1])[clean[:, few] == 0.0].max(
+        initial=-2.0 * MARGIN
+    ) + MARGIN
     excess = clean @ weights[:-1] + weights[-1] + MARGIN
     weights[few] -= (excess / np.maximum(clean[:, few], 1e-9)).max(initial=0.0)
     print(f'    "{rule}": ({", ".join(f"{weight:.2f}" for weight in weights)}),')
     found = values @ weights[:-1] + weights[-1] > 0.0
-    wrong = [f"{case.name} {case.noise}" for case, yes, no in zip(counted, found, noisy, strict=True) if yes and not no]
+    wrong = [
+        f"{case.name} {case.noise}"
+        for case, yes, no in zip(counted, found, noisy, strict=True)
+        if yes and not no
+    ]
     print(f"        # of {(noisy == 0.0).sum()} wrongly:", ", ".join(wrong) or "none")
     for kind, which in product(RIGHT[rule], (~held, held)):
         among = which & np.array([case.noise == kind for case in counted])
         if among.any():
-            print(f"        # {kind}{' of those held out' if which is held else ''}: found {found[among].mean():.2f}")
+            print(
+                f"        # {kind}{' of those held out' if which is held else ''}: found {found[among].mean():.2f}"
+            )
 
 
 def main() -> None:

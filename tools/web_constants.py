@@ -18,12 +18,38 @@ TARGET = Path(__file__).parents[1] / "web/src/constants.json"
 
 _IN_A_GRID = ("HEADER", "METADATA", "CONNECTIVITY", "GRID", "END")
 """Frames of a stream on a light grid."""
-_OF_A_GRID = ("vertices", "faces", "center", "scale", "grid", "lattice", "corner", "light", "congruence")
+_OF_A_GRID = (
+    "vertices",
+    "faces",
+    "center",
+    "scale",
+    "grid",
+    "lattice",
+    "corner",
+    "light",
+    "congruence",
+)
 _OTHER_LIMITS = {"block_memory": "memory", "block_memory_per_vertex": "memory_per_vertex"}
 """Limits that the browser's decoder calls otherwise: its own `memory` is that of the machine in the page."""
 _SAME_LIMITS = (
-    *("vertices", "faces", "blocks", "block_size", "coefficients", "frames", "gop_frames", "frame_bytes"),
-    *("metadata_bytes", "attributes", "attribute_values", "sequence_bytes", "work", "work_per_vertex"),
+    *(
+        "vertices",
+        "faces",
+        "blocks",
+        "block_size",
+        "coefficients",
+        "frames",
+        "gop_frames",
+        "frame_bytes",
+    ),
+    *(
+        "metadata_bytes",
+        "attributes",
+        "attribute_values",
+        "sequence_bytes",
+        "work",
+        "work_per_vertex",
+    ),
     "work_per_byte",
     "memory_per_byte",
 )
@@ -68,7 +94,9 @@ def main() -> None:
     if parser.parse_args().write:
         TARGET.write_text(source())
     elif TARGET.read_text() != source():
-        raise SystemExit(f"{TARGET} is not what Python has; run: python -m tools.web_constants --write")
+        raise SystemExit(
+            f"{TARGET} is not what Python has; run: python -m tools.web_constants --write"
+        )
 
 
 if __name__ == "__main__":

@@ -14,7 +14,9 @@ _LEVEL = 19
 
 def compress(data: bytes) -> bytes:
     """`data` as a zstd frame without its magic number, or as it is where that is not shorter."""
-    compressor = _zstandard().ZstdCompressor(level=_LEVEL, write_checksum=False, write_content_size=True)
+    compressor = _zstandard().ZstdCompressor(
+        level=_LEVEL, write_checksum=False, write_content_size=True
+    )
     # Four bytes that are always the same, in each of hundreds of blocks.
     frame: bytes = compressor.compress(data)[len(_MAGIC) :]
     return frame if len(frame) < len(data) else data

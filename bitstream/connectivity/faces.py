@@ -23,14 +23,20 @@ class EncodedConnectivity:
 def encode_connectivity(faces: npt.ArrayLike, vertex_count: int) -> EncodedConnectivity:
     given = np.asarray(faces)
     if given.ndim != 2 or given.shape[1] != 3 or len(given) == 0 or given.dtype.kind not in "iu":
-        raise MeshError(f"faces must be integers of shape (m, 3), m > 0, not {given.dtype} of shape {given.shape}")
+        raise MeshError(
+            f"faces must be integers of shape (m, 3), m > 0, not {given.dtype} of shape {given.shape}"
+        )
     # The kernel follows these numbers as indices. It has a check of its own; this one has words for users.
     if given.min() < 0 or given.max() >= vertex_count:
-        raise MeshError(f"faces refer to vertices {given.min()} to {given.max()}, outside 0..{vertex_count - 1}")
+        raise MeshError(
+            f"faces refer to vertices {given.min()} to {given.max()}, outside 0..{vertex_count - 1}"
+        )
     # A vertex that no face reaches is never visited by the traversal, and would have no number.
     missing = np.bincount(given.ravel(), minlength=vertex_count) == 0
     if missing.any():
-        raise MeshError(f"vertex {int(np.argmax(missing))} is in no face; remove isolated vertices first")
+        raise MeshError(
+            f"vertex {int(np.argmax(missing))} is in no face; remove isolated vertices first"
+        )
     mesh = GivenMesh(np.ascontiguousarray(given, np.int32), np.arange(vertex_count, dtype=np.int32))
     mesh.join(True, True)
     return EncodedConnectivity(*mesh.code())

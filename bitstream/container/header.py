@@ -14,7 +14,14 @@ MetadataValue: TypeAlias = str | int | float | bytes
 MOST_GRID = 2**20 - 1
 MOST_ATTRIBUTES = 255
 # The table itself is in C, for the decoder is the judge of what a header may hold. Python reads it and has no copy.
-_KINDS: tuple[tuple[Kind, Kind], ...] = (int, int), (int, int), (float, float), (tuple, int), (tuple, float), (str, str)
+_KINDS: tuple[tuple[Kind, Kind], ...] = (
+    (int, int),
+    (int, int),
+    (float, float),
+    (tuple, int),
+    (tuple, float),
+    (str, str),
+)
 """Types of a field, and of items of a list, by the numbers of the decoder."""
 
 
@@ -44,7 +51,9 @@ def _fields(declares: bool) -> dict[int, Any]:
     found = {}
     for key, number, low, high, least, most, fallback, required in table_of(declares):
         kind, item = _KINDS[number]
-        default = MISSING if required else (item(fallback),) * least if kind is tuple else kind(fallback)
+        default = (
+            MISSING if required else (item(fallback),) * least if kind is tuple else kind(fallback)
+        )
         end = float if item is float else int
         stored = Field(key, kind, item, number == 1, end(low), end(high), (least, most), default)
         found[key] = field(default=default, metadata={"wire": stored})
@@ -183,7 +192,9 @@ def fields_of(kind: Kind) -> dict[str, Field]:
 def values_of(kind: Kind, numbers: Mapping[int, list[float]]) -> dict[str, Any]:
     """The values of fields, but for texts, of their numbers by keys."""
     return {
-        name: tuple(map(item.item, numbers.get(item.key, []))) if item.type is tuple else item.type(*numbers[item.key])
+        name: tuple(map(item.item, numbers.get(item.key, [])))
+        if item.type is tuple
+        else item.type(*numbers[item.key])
         for name, item in fields_of(kind).items()
         if item.type is not str
     }
@@ -201,7 +212,10 @@ EXACT = 2  # `light`: floats in the cells of a grid follow its values
 
 def entries_of(record: Any) -> list[tuple[int, Any]]:
     """(key, value) of every field that is not at its default, keys ascending."""
-    values = ((item, item.normalize(getattr(record, name))) for name, item in fields_of(type(record)).items())
+    values = (
+        (item, item.normalize(getattr(record, name)))
+        for name, item in fields_of(type(record)).items()
+    )
     # Fields at their defaults are left out, and decoders refuse streams that store them: each header has one spelling
     # only.
     return sorted((item.key, value) for item, value in values if value != item.default)
@@ -221,7 +235,8 @@ class Declaration:
 
     name: str = _DECLARATION[1]
     domain: int = _DECLARATION[2]  # the stream has a value for each VERTEX, CORNER or FACE
-    origin: int = _DECLARATION[3]  # given by AS_CODED, or OTHERWISE: VERTEX by corners, CORNER by vertices
+    # Given by AS_CODED, or OTHERWISE: VERTEX by corners, CORNER by vertices.
+    origin: int = _DECLARATION[3]
     semantic: int = _DECLARATION[4]  # GENERIC, COLOR, NORMAL or TEXCOORD
     kind: int = _DECLARATION[5]  # uint8, int8, uint16, int16, uint32, int32, float32 or float64
     components: int = _DECLARATION[6]

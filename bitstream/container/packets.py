@@ -12,7 +12,14 @@ from bsm.bitstream.container import wire
 from bsm.bitstream.container.header import Declaration as Declaration
 from bsm.bitstream.container.header import Header as Header
 from bsm.bitstream.container.header import MetadataValue, entries_of
-from bsm.bitstream.container.wire import MAX_ENTRIES, FrameType, write_frame, write_map, write_preamble, write_varint
+from bsm.bitstream.container.wire import (
+    MAX_ENTRIES,
+    FrameType,
+    write_frame,
+    write_map,
+    write_preamble,
+    write_varint,
+)
 from bsm.bitstream.errors import OptionError
 from bsm.bitstream.limits import DEFAULT_LIMITS
 
@@ -24,10 +31,15 @@ class Metadata:
     entries: Mapping[str, MetadataValue] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        plain = {k: value.item() if isinstance(value, np.generic) else value for k, value in self.entries.items()}
+        plain = {
+            k: value.item() if isinstance(value, np.generic) else value
+            for k, value in self.entries.items()
+        }
         for name, value in plain.items():
             if type(name) is not str or type(value) not in (str, int, float, bytes):
-                raise OptionError(f"metadata {name!r}: {value!r} must map a str to a str, int, float or bytes")
+                raise OptionError(
+                    f"metadata {name!r}: {value!r} must map a str to a str, int, float or bytes"
+                )
         # The law wants the keys of a map in ascending order, and so the same metadata always make the same bytes.
         object.__setattr__(self, "entries", dict(sorted(plain.items())))
 
@@ -38,7 +50,9 @@ class Metadata:
             if "\0" in name:
                 raise OptionError(f"metadata {name!r}: there is a NUL in the name; leave it out")
             if isinstance(value, int) and not -(1 << 63) <= value < 1 << 63:
-                raise OptionError(f"metadata {name!r}: {value} does not fit into 64 bits; store it as a text")
+                raise OptionError(
+                    f"metadata {name!r}: {value} does not fit into 64 bits; store it as a text"
+                )
 
 
 @dataclass(frozen=True)
@@ -126,7 +140,18 @@ class End:
 
 
 Packet: TypeAlias = (
-    Header | Metadata | Connectivity | Labels | Order | Declared | Coefficients | Gop | Grid | Refinement | Values | End
+    Header
+    | Metadata
+    | Connectivity
+    | Labels
+    | Order
+    | Declared
+    | Coefficients
+    | Gop
+    | Grid
+    | Refinement
+    | Values
+    | End
 )
 
 
@@ -144,11 +169,18 @@ def write_brief(header: Header, body: Sequence[Packet]) -> bytes | None:
     # Without the byte that tells the type: all of them must be in single precision, and their length tells whether they
     # are.
     floats = b"".join(wire.pack(value)[1:] for value in (header.scale, *header.center, *turn))
-    entries = {name: value for packet in body if isinstance(packet, Metadata) for name, value in packet.entries.items()}
+    entries = {
+        name: value
+        for packet in body
+        if isinstance(packet, Metadata)
+        for name, value in packet.entries.items()
+    }
     # A brief stream exists for small meshes on grids. All others have packets that one frame cannot hold, and stay as
     # they are.
     match [packet for packet in body if not isinstance(packet, Metadata)]:
-        case [Connectivity(faces), Grid(0, header.vertices, values)] if len(floats) == 16 + 4 * len(turn):
+        case [Connectivity(faces), Grid(0, header.vertices, values)] if len(floats) == 16 + 4 * len(
+            turn
+        ):
             # Only these fields: a brief header has no keys, so everything else must be at its default.
             whole = (header.vertices, header.faces, *header.grid, header.congruence, len(faces))
             *fields, length = map(write_varint, whole)
@@ -161,7 +193,9 @@ def write_brief(header: Header, body: Sequence[Packet]) -> bytes | None:
 
 def metadata_of(entries: Sequence[tuple[str, MetadataValue]]) -> tuple[Metadata, ...]:
     """Metadata packets of at most as many entries as a map may have."""
-    return tuple(Metadata(dict(entries[i : i + MAX_ENTRIES])) for i in range(0, len(entries), MAX_ENTRIES))
+    return tuple(
+        Metadata(dict(entries[i : i + MAX_ENTRIES])) for i in range(0, len(entries), MAX_ENTRIES)
+    )
 
 
 def write_metadata(metadata: Metadata) -> bytes:

@@ -70,7 +70,9 @@ def read_varint(data: bytes | memoryview) -> tuple[int, int]:
 
 def with_lengths(payloads: list[bytes]) -> bytes:
     """Payloads one after the other, each but the last with its length before it."""
-    return b"".join(write_varint(len(payload)) + payload for payload in payloads[:-1]) + payloads[-1]
+    return (
+        b"".join(write_varint(len(payload)) + payload for payload in payloads[:-1]) + payloads[-1]
+    )
 
 
 def checksum_size(frame_type: int, length: int) -> int:

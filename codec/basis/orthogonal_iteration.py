@@ -40,7 +40,9 @@ class DynamicSize:
     def follow(self, left: float, coefficients: Matrix) -> int:
         """Return c_i by the predecessor's size, shape (c, 3) given, and the squared error left, or c, over eps_h."""
         # Columns are orthonormal, so the error that any size leaves is the sum of the squares that it leaves out.
-        norms = np.sqrt(left + np.append(np.cumsum(np.square(coefficients).sum(axis=1)[::-1])[::-1], 0.0))
+        norms = np.sqrt(
+            left + np.append(np.cumsum(np.square(coefficients).sum(axis=1)[::-1])[::-1], 0.0)
+        )
         self.met = bool(norms[-1] <= self._highest)
         if not self.met:
             return len(coefficients)

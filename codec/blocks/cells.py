@@ -38,12 +38,21 @@ def prolonged(cells: CellMesh, graph: Graph, places: Matrix, rounds: int) -> Mat
     # Single precision in between: a decoder does this for every scan, and the final levels are measured from its
     # result.
     positions, room = np.empty((graph.size, 3)), np.empty(8 * graph.size, np.float32)
-    _kernels.prolong(graph.offsets, graph.neighbors, cells.own, np.ascontiguousarray(places), rounds, room, positions)
+    _kernels.prolong(
+        graph.offsets,
+        graph.neighbors,
+        cells.own,
+        np.ascontiguousarray(places),
+        rounds,
+        room,
+        positions,
+    )
     return positions
 
 
 STEPS = 8  # of conjugate gradients; sixty come to the same bytes
-BENT = 0.1  # what bends between cells cost over errors of vertices: they take bits, and vertices hardly see them
+# What bends between cells cost over errors of vertices: they take bits, and vertices hardly see them.
+BENT = 0.1
 COUPLED = 32  # entries of half a row that there is room for; rows have about 20
 
 
@@ -65,18 +74,28 @@ class Fit:
         self._fitted(places, STEPS)
         return places
 
-    def level(self, frames: Matrix, steps: Matrix, places: Matrix, levels: Levels, first: int = 0) -> None:
+    def level(
+        self, frames: Matrix, steps: Matrix, places: Matrix, levels: Levels, first: int = 0
+    ) -> None:
         """Change levels of cells at these places, of shape (m, 3), so that errors of neighbors cancel.
 
         `first` is the first axis whose levels may change."""
         pulls = self._fitted(places.copy(), 0)
-        _kernels.level_cells(*self._coupling, np.ascontiguousarray(frames), steps, first, pulls, levels)
+        _kernels.level_cells(
+            *self._coupling, np.ascontiguousarray(frames), steps, first, pulls, levels
+        )
 
     def _fitted(self, places: Matrix, steps: int) -> Matrix:
         """Bring places nearer in a number of steps; returns where they are pulled from there."""
         coarse, pulls = self.cells.graph, np.empty(places.shape)
         room = np.empty(8 * self.graph.size + 24 * coarse.size, np.float32)
-        given = self.graph.offsets, self.graph.neighbors, self.cells.own, coarse.offsets, coarse.neighbors
+        given = (
+            self.graph.offsets,
+            self.graph.neighbors,
+            self.cells.own,
+            coarse.offsets,
+            coarse.neighbors,
+        )
         _kernels.fit_cells(*given, self.positions, self.rounds, BENT, steps, room, places, pulls)
         return pulls
 
@@ -88,8 +107,16 @@ class Fit:
         bounds = np.cumsum([0, *np.bincount(own, minlength=m)], dtype=np.int32)
         order, most = np.argsort(own, kind="stable").astype(np.int32), COUPLED * m
         room, listed = np.empty(18 * n + m, np.float32), np.empty(18 * n + 3 * m + 1, np.int32)
-        starts, ends, weights = np.empty(m + 1, np.int64), np.empty(2 * most, np.int32), np.empty(m, np.float64)
-        below, half, values = np.empty(most, np.int32), np.empty(most, np.float32), np.empty(2 * most, np.float32)
+        starts, ends, weights = (
+            np.empty(m + 1, np.int64),
+            np.empty(2 * most, np.int32),
+            np.empty(m, np.float64),
+        )
+        below, half, values = (
+            np.empty(most, np.int32),
+            np.empty(most, np.float32),
+            np.empty(2 * most, np.float32),
+        )
         links = fine.offsets, fine.neighbors, bounds, order, coarse.offsets, coarse.neighbors
         count = _kernels.couple_cells(
             *links, self.rounds, BENT, room, listed, below, half, weights, starts, ends, values

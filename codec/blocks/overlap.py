@@ -25,7 +25,8 @@ from bsm.codec.geometry.graph import Graph
 from bsm.codec.geometry.welding import group_rows
 
 # Asked for without loading it: few streams use METIS, and every start would pay.
-HAS_METIS = importlib.util.find_spec("pymetis") is not None  # PyPI lacks it for Windows and for Linux on arm64
+# PyPI lacks it for Windows and for Linux on arm64.
+HAS_METIS = importlib.util.find_spec("pymetis") is not None
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,7 +85,12 @@ class Block:
         return self.offsets[1:] - self.offsets[:-1]
 
     def iterated(
-        self, start: Matrix | Basis, shift: float, power: int = 1, iterations: int = 1, apart: int = 0
+        self,
+        start: Matrix | Basis,
+        shift: float,
+        power: int = 1,
+        iterations: int = 1,
+        apart: int = 0,
     ) -> Basis:
         """U of L + `shift` after orthogonal iterations from a start, shape (n_i, c)."""
         cut, begin = Cut(self.offsets, self.neighbors), np.ascontiguousarray(start, np.float32)

@@ -19,7 +19,8 @@ from bsm.codec.denoise.surface import Topology, mend_folds
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.geometry.metrics import face_normals
 
-PIECE, PIECES = 2000, 2  # vertices of pieces on which meshes are rehearsed that are larger than one piece more
+# Vertices of pieces on which meshes are rehearsed that are larger than one piece more.
+PIECE, PIECES = 2000, 2
 
 
 def sample(faces: Faces, levels: Floats) -> tuple[Order, Faces]:
@@ -33,7 +34,9 @@ def sample(faces: Faces, levels: Floats) -> tuple[Order, Faces]:
     # Equal means keep the order of the parts, which lie all over the surface; rounded, no draw changes it.
     order = np.argsort(means, kind="stable")
     order = order[means[order] > 0.5]
-    chosen = order[np.linspace(0, len(order) - 1, min(PIECES, len(order)) + 2).astype(np.int64)[1:-1]]
+    chosen = order[
+        np.linspace(0, len(order) - 1, min(PIECES, len(order)) + 2).astype(np.int64)[1:-1]
+    ]
     inside = np.isin(labels, chosen)
     number = np.cumsum(inside) - 1
     return np.flatnonzero(inside), number[faces[inside[faces].all(axis=1)]].astype(np.int32)
@@ -46,11 +49,21 @@ CANDIDATES = (
     Filter(TGV, 1.0, 0.25),
 )
 # Noise along the surface slides vertices, which then go back there.
-SLIDING = tuple(replace(each, hand_over=each.hand_over.replace("heights", "positions")) for each in CANDIDATES)
-PATCHES = Filter("normals", 0.2, 0.35, "patches")  # makes the first guess where noise is along an axis, or rounding
+SLIDING = tuple(
+    replace(each, hand_over=each.hand_over.replace("heights", "positions")) for each in CANDIDATES
+)
+# Makes the first guess where noise is along an axis, or rounding.
+PATCHES = Filter("normals", 0.2, 0.35, "patches")
 # Noise along an axis slides vertices as well.
-AXIAL = (PATCHES, CANDIDATES[0], *(Filter("positions", *way) for way in ((0.4, 0.4), (0.2, 0.25), (0.1, 0.55))))
-SEEN = tuple(Filter(RAYS, keep, sigma_r) for keep, sigma_r in ((0.3, 0.4), (1.0, 0.4), (0.3, 0.25), (1.0, 0.55)))
+AXIAL = (
+    PATCHES,
+    CANDIDATES[0],
+    *(Filter("positions", *way) for way in ((0.4, 0.4), (0.2, 0.25), (0.1, 0.55))),
+)
+SEEN = tuple(
+    Filter(RAYS, keep, sigma_r)
+    for keep, sigma_r in ((0.3, 0.4), (1.0, 0.4), (0.3, 0.25), (1.0, 0.55))
+)
 """For scans of one view."""
 STEPPED = 0.7  # weight of bends where depths are in steps, which hide the level of the noise
 FUSED = tuple(Filter(BENDS, weight, 0.3) for weight in (0.15, 0.3, 0.6))
@@ -62,27 +75,33 @@ CELL_ITERATIONS = 15  # for binary volumes
 THICK, BENDS_WIDTH, BENDS_ITERATIONS = 2.5, 0.3, (8, 12)
 """Slices from `THICK` cells across on also get the surface of fewest bends, from twice that on in two versions. It is
 best on smooth shapes; its mean with the other filter loses nothing where detail is finer than slices."""
-WALLS = 0.6  # share of the stairs on walls of one slice, from which on a filter without a coarse step joins
-STAGES = 4  # that progress tells of: noise is found, filters are rehearsed twice, and the choice is carried out
+# Share of the stairs on walls of one slice, from which on a filter without a coarse step joins.
+WALLS = 0.6
+# That progress tells of: noise is found, filters are rehearsed twice, and the choice is carried out.
+STAGES = 4
 MOST_TAUGHT = 40_000
 """Vertices up to which white noise is removed with learnt normals, which leave 3 % less of it, and any noise by total
 generalized variation, whose linear systems take two kilobytes of memory a vertex."""
-SOME_FLAT, MOST_FLAT = 0.33, 0.8  # shares of the faces on planes from which on these count, and networks do not
-WORTH = 0.9  # the rehearsal has to promise an error below this multiple of what doing nothing leaves
+# Shares of the faces on planes from which on these count, and networks do not.
+SOME_FLAT, MOST_FLAT = 0.33, 0.8
+# The rehearsal has to promise an error below this multiple of what doing nothing leaves.
+WORTH = 0.9
 AS_LARGE = 1.05
 """Rehearsed error over the change, from which on nothing tells noise from shape; and over the error before, as
 roughness tells it, from which on thin parts became worse."""
 MOST, MOST_UNKNOWN = 1.9, 1.25
 """Movement along the normals over noise, above which a window has lost more than noise: where noise is known, which
 varies by chance between windows if neighbors share it, and with the slant in scans of one view; and where it is not."""
-MOST_CORRELATED = 4.0  # at most, correlated noise over its finest frequencies, a ratio that is the same everywhere
+# At most, correlated noise over its finest frequencies, a ratio that is the same everywhere.
+MOST_CORRELATED = 4.0
 DETAIL_LOST = {"shading": 0.075, "shape": 0.03, "both": 0.03}
 """Noise may hold detail where rehearsals for a goal lose more roughness than this (a logarithm)."""
 NOISE_ALONE, DETAIL_SLOPE, DETAIL_MOST = 1.03, 4.0, 0.4
 """Its level over that in the finest frequencies without detail, the share of movements that is not made for each unit
 more, and the largest one."""
 REACHED = 0.5  # share of the level of the noise from which on a window counts for the whole
-DETAIL = 1.65  # error to expect where detail is as fine as the noise, which no rehearsal sees, over the rehearsed one
+# Error to expect where detail is as fine as the noise, which no rehearsal sees, over the rehearsed one.
+DETAIL = 1.65
 FAILED_SHARE = 0.3  # a result that fails in more of the mesh fails as a whole
 
 
@@ -123,23 +142,33 @@ class AutomaticChoice:
             "any filter would cost more than it gains": WORTH * self.untreated,
             # Noise reads 0.15 to 1.01 of it, clean meshes that were taken for noisy 1.1, 1.2 and 2.1.
             "the expected error is as large as the change": AS_LARGE * changed,
-            "the triangles are so uneven that any filter would turn their normals farther": AS_LARGE * least_forecast,
+            "the triangles are so uneven that any filter would turn their normals farther": AS_LARGE
+            * least_forecast,
         }
         for doubt, most in doubts.items():
             if self.steps and self.expected > most:
-                return replace(self, steps=(), expected=self.untreated, reason=f"{self.reason}, but {doubt}")
+                return replace(
+                    self, steps=(), expected=self.untreated, reason=f"{self.reason}, but {doubt}"
+                )
         return self
 
-    def carried_out(self, share: float, full: Positions, result: Positions, noisy: Mask, topology: Topology) -> Self:
+    def carried_out(
+        self, share: float, full: Positions, result: Positions, noisy: Mask, topology: Topology
+    ) -> Self:
         """Return the choice with the angles of the whole mesh, whose errors count by the share that is applied."""
         assert self.forecast is not None
-        full_normals, normals = face_normals(full, topology.faces), face_normals(result, topology.faces)
+        full_normals, normals = (
+            face_normals(full, topology.faces),
+            face_normals(result, topology.faces),
+        )
         half_chord = 0.5 * np.linalg.norm(full_normals - normals, axis=1)
         undone = np.degrees(2.0 * np.arcsin(np.minimum(half_chord, 1.0)))
         touched = noisy[topology.faces].any(axis=1)
         errors = np.hypot(undone, share * self.forecast.expected)
         expected = float((touched * errors).mean())
-        return replace(self, untreated=self.forecast.untreated * float(touched.mean()), expected=expected)
+        return replace(
+            self, untreated=self.forecast.untreated * float(touched.mean()), expected=expected
+        )
 
     def after(self, outliers: int) -> Self:
         """The choice for a mesh of which outliers have been put back."""
@@ -149,7 +178,9 @@ class AutomaticChoice:
         return replace(self, kind="outliers", reason=reason, outliers=outliers)
 
 
-def choose(positions: Positions, finding: Finding, surface: Filters, goal: str, progress: Progress) -> AutomaticChoice:
+def choose(
+    positions: Positions, finding: Finding, surface: Filters, goal: str, progress: Progress
+) -> AutomaticChoice:
     """Rehearse on `positions`, shape (n, 3), or a part of them if they are many, and pick what did best."""
     if not finding.noisy:
         return AutomaticChoice((), finding.kind, finding.reason, NoiseLevel(0.0, 0.0), 0.0, 0.0)
@@ -166,7 +197,9 @@ def choose(positions: Positions, finding: Finding, surface: Filters, goal: str, 
     filters = special or _general_filters(finding, level, small)
     part_finding = finding.on(members).reaching(surface.topology, level.slides)
     mesh = surface.filtered(chosen, part_finding)
-    rehearsal = Rehearsal(mesh, surface, part_finding, level, filters[0], named("goal", GOALS, goal))
+    rehearsal = Rehearsal(
+        mesh, surface, part_finding, level, filters[0], named("goal", GOALS, goal)
+    )
     flat = 0.0
     if finding.kind == "white":
         flat = mesh.planes(rehearsal.truth.positions).share
@@ -174,18 +207,29 @@ def choose(positions: Positions, finding: Finding, surface: Filters, goal: str, 
     learnable = small or finding.kind not in ("white", "unsteady")
     if special is None and learnable and not level.slides and flat < MOST_FLAT:
         finishes.append("learnt")
-    winner = rehearsal.compete(filters, finishes, lambda name, share: progress(name, (1.0 + share) / STAGES))
+    winner = rehearsal.compete(
+        filters, finishes, lambda name, share: progress(name, (1.0 + share) / STAGES)
+    )
     steadied = finding.kind == "unsteady"
     if not steadied:
         # The result of some filters is a better guess. A third round would repeat its own mistakes.
         rehearsal.again(winner)
-        winner = rehearsal.compete(filters, finishes, lambda name, share: progress(name, (2.0 + share) / STAGES))
+        winner = rehearsal.compete(
+            filters, finishes, lambda name, share: progress(name, (2.0 + share) / STAGES)
+        )
     if flat > SOME_FLAT:
         winner = rehearsal.flattened(winner, finishes)
     noise = NoiseLevel(level.normal / finding.edge, level.tangential / finding.edge)
     why = f"these of {len(filters)} filters left the least error on the result with new noise"
     choice = AutomaticChoice(
-        winner.steps, finding.kind, finding.reason, noise, rehearsal.untreated, winner.error, winner.finish, why=why
+        winner.steps,
+        finding.kind,
+        finding.reason,
+        noise,
+        rehearsal.untreated,
+        winner.error,
+        winner.finish,
+        why=why,
     )
     detailed = finding.kind == "white" and rehearsal.lost(winner) > DETAIL_LOST[goal]
     changed, forecast = np.inf, None
@@ -235,7 +279,11 @@ def _by_cause(finding: Finding) -> AutomaticChoice:
 
 
 def treat(
-    choice: AutomaticChoice, noisy: Positions, finding: Finding, surface: Filters, strength: float = 1.0
+    choice: AutomaticChoice,
+    noisy: Positions,
+    finding: Finding,
+    surface: Filters,
+    strength: float = 1.0,
 ) -> tuple[Positions, AutomaticChoice]:
     """Apply the choice to `noisy`, shape (n, 3), where it is safe; also return it as carried out, with its angles."""
     if not choice.steps:
@@ -298,7 +346,9 @@ def judge(noisy: Positions, result: Positions, finding: Finding, probe: Probe) -
     bad = windows.valid & ~(ratio <= most)
     if not judged.any() or bad[judged].mean() <= FAILED_SHARE:
         return ~bad[windows.labels], ""
-    reason = f"the result moves vertices by {movement:.2f} times the noise, and takes shape away with it"
+    reason = (
+        f"the result moves vertices by {movement:.2f} times the noise, and takes shape away with it"
+    )
     return ~bad[windows.labels], reason
 
 

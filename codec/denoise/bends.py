@@ -17,7 +17,9 @@ BEND = 0.02  # change of slope up to which bends are rounded, not sharp
 ROUNDS, STEPS, STAND_OUT = 6, 120, 2.0
 
 
-def flattened(measured: Positions, places: Positions, topology: Topology, weight: float) -> Positions:
+def flattened(
+    measured: Positions, places: Positions, topology: Topology, weight: float
+) -> Positions:
     """Positions, shape (n, 3), of fewer bends over the places, shape (n, 3), near the measured ones."""
     middle = measured.mean(axis=0)
     edge = mean_edge_length(measured, topology.faces) or 1.0
@@ -69,5 +71,10 @@ def bending(places: Floats, topology: Topology) -> tuple[sparse.csr_matrix, Floa
         weights[:, column] = 1.0 / np.maximum(height, 0.1)
         weights[:, 0] -= (1.0 - share) * weights[:, column]
         weights[:, 1] -= share * weights[:, column]
-    where = np.repeat(np.arange(len(weights)), 4), np.concatenate([hinges.ends, hinges.tips], axis=1).ravel()
-    return sparse.csr_matrix((weights.ravel(), where), shape=(len(weights), topology.n)), hinges.lengths
+    where = (
+        np.repeat(np.arange(len(weights)), 4),
+        np.concatenate([hinges.ends, hinges.tips], axis=1).ravel(),
+    )
+    return sparse.csr_matrix(
+        (weights.ravel(), where), shape=(len(weights), topology.n)
+    ), hinges.lengths

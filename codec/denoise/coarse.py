@@ -22,7 +22,15 @@ KEEP = 0.10
 FEWEST_FRAMES = 8
 SHORTEST = 0.1  # of mean edges: the length from which on an edge is not shorter to the weights
 # More iterations than a stream would send, since no decoder has to repeat them; no springs, as in the paper.
-RULES = ChainRules(exact=False, key_interval=16, power=3, iterations=2, key_iterations=4, shift=0.125, springs=False)
+RULES = ChainRules(
+    exact=False,
+    key_interval=16,
+    power=3,
+    iterations=2,
+    key_iterations=4,
+    shift=0.125,
+    springs=False,
+)
 
 
 def overlapping(faces: Faces, n: int, block: int = BLOCK_SIZE) -> tuple[Blocks, int]:
@@ -37,7 +45,12 @@ class CoarseFilter:
     """A low-pass filter of everything that lives on the vertices of one connectivity."""
 
     def __init__(
-        self, faces: Faces, n: int, keep: float = KEEP, block: int = BLOCK_SIZE, rules: ChainRules = RULES
+        self,
+        faces: Faces,
+        n: int,
+        keep: float = KEEP,
+        block: int = BLOCK_SIZE,
+        rules: ChainRules = RULES,
     ) -> None:
         blocks, self._size = overlapping(faces, n, block)
         self._blocks = _dictionaries(blocks, self._width(keep), rules)
@@ -51,14 +64,18 @@ class CoarseFilter:
             # Constants are in the subspace but for rounding, which far from the origin would be all there is.
             center = values[vertices].mean(axis=0)
             # Twice a thin product, never the n x n projection.
-            blend.add(vertices, subspace @ (subspace.T @ (values[vertices] - center)) + center, copies)
+            blend.add(
+                vertices, subspace @ (subspace.T @ (values[vertices] - center)) + center, copies
+            )
         return blend.all_positions()
 
     def _width(self, keep: float) -> int:
         return max(1, round(keep * self._size))
 
 
-def _dictionaries(blocks: Blocks, width: int, rules: ChainRules) -> list[tuple[Indices, Floats, Floats]]:
+def _dictionaries(
+    blocks: Blocks, width: int, rules: ChainRules
+) -> list[tuple[Indices, Floats, Floats]]:
     """Vertices of every block, their weights, and its dictionary; chains run in parallel."""
 
     def dictionaries_of(indices: range) -> list[tuple[Indices, Floats, Floats]]:
@@ -72,7 +89,11 @@ def _dictionaries(blocks: Blocks, width: int, rules: ChainRules) -> list[tuple[I
             found.append((vertices, weights, dictionary.astype(np.float64)))
         return found
 
-    return [each for found in ordered_map(dictionaries_of, rules.chains(blocks.count), None) for each in found]
+    return [
+        each
+        for found in ordered_map(dictionaries_of, rules.chains(blocks.count), None)
+        for each in found
+    ]
 
 
 def by_lengths(positions: Positions) -> ChainRules:
@@ -87,7 +108,9 @@ def by_lengths(positions: Positions) -> ChainRules:
         laplacian = np.zeros((len(site.vertices),) * 2)
         laplacian[rows, site.neighbors] = -1.0 / np.maximum(lengths / mean, SHORTEST)
         np.fill_diagonal(laplacian, -laplacian.sum(axis=1))
-        lowest: Floats = scipy.linalg.eigh(laplacian, subset_by_index=(0, min(width, len(laplacian)) - 1))[1]
+        lowest: Floats = scipy.linalg.eigh(
+            laplacian, subset_by_index=(0, min(width, len(laplacian)) - 1)
+        )[1]
         return lowest
 
     return replace(RULES, overrides=Overrides(dictionary))
@@ -110,7 +133,9 @@ class TemporalFilter:
             return frames[:, vertices].transpose(1, 0, 2).reshape(len(vertices), 3 * count)
 
         indices = range(len(self._blocks))
-        deviations = list(ordered_map(lambda index: noise_deviation(trajectories(index)), indices, None))
+        deviations = list(
+            ordered_map(lambda index: noise_deviation(trajectories(index)), indices, None)
+        )
         deviation = float(np.median(deviations))
         sums, kept = np.zeros((n, 3 * count)), np.zeros(n)
         smaller = ordered_map(lambda index: shrunk(trajectories(index), deviation), indices, None)

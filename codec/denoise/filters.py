@@ -19,12 +19,23 @@ from bsm.codec.denoise.noise.finding import Finding
 from bsm.codec.denoise.noise.probe import Probe
 from bsm.codec.denoise.paper import POWER, ROUNDS
 from bsm.codec.denoise.planes import Planes, find_planes
-from bsm.codec.denoise.surface import FINE_STEPS, Guide, GuidedFilter, Topology, patch_guidance, surface_normals
+from bsm.codec.denoise.surface import (
+    FINE_STEPS,
+    Guide,
+    GuidedFilter,
+    Topology,
+    patch_guidance,
+    surface_normals,
+)
 from bsm.codec.denoise.variation import varied_little
 from bsm.codec.geometry.metrics import face_normals
 
-GUIDES: dict[str, Guide] = {"patches": patch_guidance, "own": lambda geometry, topology: geometry.normals}
-METHODS = ("spectral", "oi", "guided", "tgv", "learnt")  # of options; without options, the data choose
+GUIDES: dict[str, Guide] = {
+    "patches": patch_guidance,
+    "own": lambda geometry, topology: geometry.normals,
+}
+# Of options; without options, the data choose.
+METHODS = ("spectral", "oi", "guided", "tgv", "learnt")
 WITHOUT_COARSE = METHODS[2:]
 RAYS, BENDS, TGV = "rays", "bends", "tgv"
 """Hand-overs without a coarse step: the surface of fewest bends along camera rays (`View.flattened`), or within cells
@@ -105,18 +116,28 @@ class DenoiseOptions:
 
     def __post_init__(self) -> None:
         choices = {"method": METHODS, "hand_over": tuple(HAND_OVERS), "fine": tuple(FINE_STEPS)}
-        counts = {"power": (1, 255), "rounds": (1, 255), "iterations": (0, 1 << 20), "block_size": (1, 1 << 20)}
+        counts = {
+            "power": (1, 255),
+            "rounds": (1, 255),
+            "iterations": (0, 1 << 20),
+            "block_size": (1, 1 << 20),
+        }
         check_options(self, choices, {**counts, "keep": (1e-6, 1.0)})
         coarse = self.hand_over, self.keep, self.block_size
         if self.method in WITHOUT_COARSE and coarse != ("positions", KEEP, BLOCK_SIZE):
-            raise OptionError(f"method {self.method} has no coarse step; leave out hand_over, keep and block_size")
+            raise OptionError(
+                f"method {self.method} has no coarse step; leave out hand_over, keep and block_size"
+            )
         if self.method in ("tgv", "learnt") and (self.fine, self.iterations) != ("guided", None):
-            raise OptionError(f"method {self.method} has no fine step; leave out fine and iterations")
+            raise OptionError(
+                f"method {self.method} has no fine step; leave out fine and iterations"
+            )
         if self.method != "oi" and (self.power, self.rounds) != (POWER, ROUNDS):
             raise OptionError(f"power and rounds are for method oi, not for {self.method}")
 
 
-LEARNT, USUAL_KEPT = 0.6, 0.2  # share of learnt normals; and of frequencies that most coarse steps keep at most
+# Share of learnt normals; and of frequencies that most coarse steps keep at most.
+LEARNT, USUAL_KEPT = 0.6, 0.2
 
 
 @dataclass(frozen=True)
@@ -154,7 +175,9 @@ class Filters:
             return positions
         most = max(filter_.keep, USUAL_KEPT)
         if most not in self._coarse:
-            self._coarse[most] = CoarseFilter(self.topology.faces, self.topology.n, most, BLOCK_SIZE)
+            self._coarse[most] = CoarseFilter(
+                self.topology.faces, self.topology.n, most, BLOCK_SIZE
+            )
         return self._coarse[most](positions, filter_.keep)
 
     def filtered(self, positions: Positions, finding: Finding) -> "Filtered":
@@ -168,8 +191,15 @@ class Filters:
 class Filtered:
     """Results of filters on one mesh; those with the same hand-over share their start."""
 
-    def __init__(self, positions: Positions, surface: Filters, finding: Finding | None = None) -> None:
-        self.positions, self._surface, self._topology, self._finding = positions, surface, surface.topology, finding
+    def __init__(
+        self, positions: Positions, surface: Filters, finding: Finding | None = None
+    ) -> None:
+        self.positions, self._surface, self._topology, self._finding = (
+            positions,
+            surface,
+            surface.topology,
+            finding,
+        )
         self._noisy = positions
         self._within: Callable[[Positions], Positions] = np.asarray
         if finding is not None and isinstance(finding.bound, Spacing):
@@ -200,13 +230,17 @@ class Filtered:
             return finding.bound.flattened(noisy, topology)
         if filter_.hand_over == BENDS:
             return flattened(noisy, self._smoothed, topology, filter_.keep)
-        return HAND_OVERS[filter_.hand_over](noisy, self._surface.smooth(noisy, filter_), self._guided)
+        return HAND_OVERS[filter_.hand_over](
+            noisy, self._surface.smooth(noisy, filter_), self._guided
+        )
 
     def mean(self, steps: tuple[Step, ...]) -> Positions:
         """The mean result of the steps, shape (n, 3): errors of different filters partly cancel."""
         for step in steps:
             if step not in self._results:
-                self._results[step] = next(islice(self.iterates(step.filter), step.iterations, None))
+                self._results[step] = next(
+                    islice(self.iterates(step.filter), step.iterations, None)
+                )
         return np.asarray(np.mean([self._results[step] for step in steps], axis=0))
 
     def finished(self, result: Positions, finish: str) -> Positions:

@@ -28,7 +28,8 @@ from bsm.codec.threads import ordered_map
 
 Pair = tuple[Positions, Positions]
 
-WINDOW = 64  # frames that the temporal filter sees at once, if they fit: few have few frequencies over time
+# Frames that the temporal filter sees at once, if they fit: few have few frequencies over time.
+WINDOW = 64
 WINDOW_BYTES = 2**28
 CHANGING = "noise that changes with the frames"
 
@@ -66,7 +67,11 @@ class FrameDenoiser:
     def __call__(self, frames: Iterable[Positions]) -> Iterator[Positions]:
         """Denoise frame after frame, with a few of them in memory at any time."""
         checked = map(self._checked, frames)
-        results = self._automatic(checked) if self._options is None else self._by_options(checked, self._options)
+        results = (
+            self._automatic(checked)
+            if self._options is None
+            else self._by_options(checked, self._options)
+        )
         for measured, result in results:
             originals = measured[self._members]
             moved = (result != originals).any(axis=1)[self._index]
@@ -97,15 +102,27 @@ class FrameDenoiser:
                 if remaining is None:
                     outliers, begun, finding = calm(begun, self._surface.probe)
                     group[0] = group[0][0], begun
-                    choice = choose(begun, finding, self._surface, self._goal, self._progress).after(outliers)
+                    choice = choose(
+                        begun, finding, self._surface, self._goal, self._progress
+                    ).after(outliers)
                 else:
                     finding = find_noise(begun, self._surface.probe)
                     # What the temporal filter leaves is known in strength, even where the mesh does not show it.
                     if remaining >= FAINTEST * finding.edge:
-                        finding = Finding("unsteady", remaining, np.full(len(begun), remaining), finding.edge, CHANGING)
+                        finding = Finding(
+                            "unsteady",
+                            remaining,
+                            np.full(len(begun), remaining),
+                            finding.edge,
+                            CHANGING,
+                        )
                     goal = "both" if self._goal == "shading" else self._goal
                     choice = choose(begun, finding, self._surface, goal, self._progress)
-                    choice = choice if choice.steps else replace(choice, kind="unsteady", reason=CHANGING)
+                    choice = (
+                        choice
+                        if choice.steps
+                        else replace(choice, kind="unsteady", reason=CHANGING)
+                    )
                 self._progress("filtering", (STAGES - 1) / STAGES)
             for pair, outcome in ordered_map(finish, group, None):
                 self.choice = self.choice or outcome  # of the first frame
@@ -140,7 +157,9 @@ class FrameDenoiser:
                 # Without fading, the change from one window to the next would be seen as a jump.
                 fading = min(len(tail), len(results))
                 share = ((np.arange(fading) + 1.0) / (fading + 1.0))[:, None, None]
-                results = np.concatenate([(1.0 - share) * tail[:fading] + share * results[:fading], results[fading:]])
+                results = np.concatenate(
+                    [(1.0 - share) * tail[:fading] + share * results[:fading], results[fading:]]
+                )
             # The last frames of a window wait, since the next window sees what follows them.
             ready = len(results) if last else len(results) - FEWEST_FRAMES
             if ready:
@@ -163,7 +182,9 @@ class FrameDenoiser:
             else:
                 # Weights by lengths differ from frame to frame, and would need dictionaries of their own for each.
                 rules = RULES
-            coarse = CoarseFilter(topology.faces, topology.n, options.keep, options.block_size, rules)
+            coarse = CoarseFilter(
+                topology.faces, topology.n, options.keep, options.block_size, rules
+            )
 
         def finish(task: tuple[int | None, Positions]) -> Pair:
             number, measured = task
@@ -180,13 +201,16 @@ class FrameDenoiser:
             if self._force:
                 return measured, result
             # The user chose the options, and they may be wrong for this mesh, so measure first what they destroy.
-            good, reason = judge(noisy, result, find_noise(noisy, self._surface.probe), self._surface.probe)
+            good, reason = judge(
+                noisy, result, find_noise(noisy, self._surface.probe), self._surface.probe
+            )
             if reason:
                 place = "" if number is None else f"frame {number}: "
                 raise HarmError(f"{place}{reason}; nothing is written unless it is forced")
             return measured, np.where(good[:, None], result, noisy)
 
-        numbers: Iterable[int | None] = count() if len(first) == 2 else [None]  # a mesh has no frames
+        # A mesh has no frames.
+        numbers: Iterable[int | None] = count() if len(first) == 2 else [None]
         yield from ordered_map(finish, zip(numbers, chain(first, frames)), None)
 
     def _checked(self, frame: Positions) -> Positions:

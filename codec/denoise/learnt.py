@@ -33,18 +33,24 @@ from bsm.codec.geometry.metrics import FaceGeometry, face_geometry, face_normals
 Singles = npt.NDArray[np.float32]
 
 RADIUS = 4.0  # of the surroundings, in mean distances of adjacent centroids, as all lengths here
-RANGES, SCALES = (0.6, 0.6 / np.sqrt(2.0), 0.3, 0.15), (1.0, 2.0)  # sigma_r and sigma_s of the averages
+# sigma_r and sigma_s of the averages.
+RANGES, SCALES = (0.6, 0.6 / np.sqrt(2.0), 0.3, 0.15), (1.0, 2.0)
 FILTERED = len(SCALES) * (2 * len(RANGES) + 1)
 SECTORS, RINGS, BETWEEN = 8, 2, 2.0  # of the circles, and the distance that parts them
-WIDTHS, TIMES = (0.3, 0.5), (3, 10)  # sigma_r of the repeated filters, and after how many iterations they are seen
+# sigma_r of the repeated filters, and after how many iterations they are seen.
+WIDTHS, TIMES = (0.3, 0.5), (3, 10)
 REPEATED = len(WIDTHS) * len(TIMES)
 OWN = 3 * (1 + FILTERED) + 4 * SECTORS * RINGS + FILTERED + 1
 NUMBERS = OWN + 3 * REPEATED + 1
 """The last one is the same for the whole mesh: how much normals of noisy faces differ from the smoothed ones."""
-BASE = slice(45, 48)  # the filtered normal to which a network adds: guided by patches, both kernels wide
-BATCH = 1024  # faces whose numbers pass the layers together: the output of a layer for a batch stays in the cache
-FARTHEST = np.float32(6.0)  # bound of standardised numbers: no mesh leads a network to those that it has never seen
-TOGETHER = 16  # faces of a product of matrices: larger ones wake threads that wait longer than they work
+# The filtered normal to which a network adds: guided by patches, both kernels wide.
+BASE = slice(45, 48)
+# Faces whose numbers pass the layers together: the output of a layer for a batch stays in the cache.
+BATCH = 1024
+# Bound of standardised numbers: no mesh leads a network to those that it has never seen.
+FARTHEST = np.float32(6.0)
+# Faces of a product of matrices: larger ones wake threads that wait longer than they work.
+TOGETHER = 16
 VERTEX_ITERATIONS = 15  # as the networks were trained
 WEIGHTS = Path(__file__).with_suffix(".npz")
 
@@ -62,7 +68,9 @@ def descriptions(
     averages = []
     for scale in SCALES:
         for compared, sigma_r in [*product((normals, guide), RANGES), (normals, np.inf)]:
-            averages.append(weighed_normals(geometry, compared, nearby_faces, scale * distance, sigma_r))
+            averages.append(
+                weighed_normals(geometry, compared, nearby_faces, scale * distance, sigma_r)
+            )
     sums = np.stack(averages, axis=1)
     filtered = unit(sums[:, :, :3], normals[:, None])
     # The last average of each scale compares nothing.
@@ -79,7 +87,9 @@ def descriptions(
     counted = np.ones(len(smooth), bool)
     if noisy is not None:
         counted &= noisy[topology.faces].any(axis=1)
-    roughness = np.linalg.norm(normals - smooth, axis=1)[counted].sum() / max(np.count_nonzero(counted), 1)
+    roughness = np.linalg.norm(normals - smooth, axis=1)[counted].sum() / max(
+        np.count_nonzero(counted), 1
+    )
     covered = areas / (areas + distance * distance)
     for begin in range(0, len(areas), BATCH):
         batch = slice(begin, min(begin + BATCH, len(areas)))
@@ -91,7 +101,9 @@ def descriptions(
         yield np.concatenate(numbers, axis=1).astype(np.float32), frames[batch]
 
 
-def _frames(geometry: FaceGeometry, nearby_faces: Lists, smooth: Floats, axes: Floats, base: Floats) -> Floats:
+def _frames(
+    geometry: FaceGeometry, nearby_faces: Lists, smooth: Floats, axes: Floats, base: Floats
+) -> Floats:
     """Frames of the faces, shape (m, 3, 3): z is where the surface looks at large, x where normals about vary most."""
     members = nearby_faces.members
     around = sparse.csr_matrix((np.ones(len(members)), members, nearby_faces.starts))
@@ -107,7 +119,9 @@ def _frames(geometry: FaceGeometry, nearby_faces: Lists, smooth: Floats, axes: F
     return np.stack([x, np.cross(z, x), z], axis=1)
 
 
-def _circles(geometry: FaceGeometry, nearby_faces: Lists, frames: Floats, distance: float, batch: slice) -> Floats:
+def _circles(
+    geometry: FaceGeometry, nearby_faces: Lists, frames: Floats, distance: float, batch: slice
+) -> Floats:
     """Mean normals and heights, in frames, of the sectors of the circles about a batch, shape (k, 4 * sectors)."""
     centroids, areas, normals = geometry
     starts = nearby_faces.starts[batch.start : batch.stop + 1]
@@ -142,7 +156,9 @@ def _repeated(geometry: FaceGeometry, patches: Lists, distance: float) -> Iterat
     for sigma_r in WIDTHS:
         normals = geometry.normals
         for time in range(1, TIMES[-1] + 1):
-            normals = filter_normals(geometry._replace(normals=normals), normals, patches, distance, sigma_r)
+            normals = filter_normals(
+                geometry._replace(normals=normals), normals, patches, distance, sigma_r
+            )
             if time in TIMES:
                 yield normals[:, None]
 
@@ -156,14 +172,18 @@ class Network:
     def __call__(self, numbers: Singles) -> Singles:
         # Always the same shape of product: BLAS sums in an order that depends on it, and results shall not.
         values = np.zeros((-(-len(numbers) // TOGETHER), TOGETHER, NUMBERS), np.float32)
-        values.reshape(-1, NUMBERS)[: len(numbers)] = np.clip((numbers - self.mean) * self.scale, -FARTHEST, FARTHEST)
+        values.reshape(-1, NUMBERS)[: len(numbers)] = np.clip(
+            (numbers - self.mean) * self.scale, -FARTHEST, FARTHEST
+        )
         for matrix, shift in self.layers[:-1]:
             values = values @ matrix + shift
             values *= expit(values)  # x / (1 + exp(-x)), which has no kink
         matrix, shift = self.layers[-1]
         # A correction of the filtered normal: a network that knows nothing changes nothing.
         normals = numbers[:, BASE] + (values @ matrix + shift).reshape(-1, 3)[: len(numbers)]
-        return np.asarray(normals / np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), np.float32(1e-6)))
+        return np.asarray(
+            normals / np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), np.float32(1e-6))
+        )
 
 
 @cache
@@ -172,12 +192,20 @@ def read_networks(path: Path = WEIGHTS) -> tuple[Network, ...]:
     networks: list[Network] = []
     with np.load(path) as arrays:
         while f"mean{(stage := len(networks))}" in arrays:
-            keys = [f"{stage}.{layer}" for layer in range(sum(key.startswith(f"matrix{stage}.") for key in arrays))]
-            layers = (tuple(arrays[part + key].astype(np.float32) for part in ("matrix", "shift")) for key in keys)
+            keys = [
+                f"{stage}.{layer}"
+                for layer in range(sum(key.startswith(f"matrix{stage}.") for key in arrays))
+            ]
+            layers = (
+                tuple(arrays[part + key].astype(np.float32) for part in ("matrix", "shift"))
+                for key in keys
+            )
             networks.append(Network(arrays[f"mean{stage}"], arrays[f"scale{stage}"], tuple(layers)))
     if not networks or any(len(network.mean) != NUMBERS for network in networks):
         # Weights for other inputs would run, and give garbage.
-        raise ValueError(f"{path}: made for other numbers of faces; train it again: python -m tools.train_denoiser")
+        raise ValueError(
+            f"{path}: made for other numbers of faces; train it again: python -m tools.train_denoiser"
+        )
     return tuple(networks)
 
 

@@ -21,7 +21,8 @@ ALIKE = 0.15  # distance of the mean normals of regions up to which they are joi
 SAME_PLANE = 20.0  # what one plane may explain less well than two
 FEWEST = 30.0  # vertices of a plane
 BENT = 0.05  # how far a plane may turn normals
-FIRM = 1e-3  # of a vertex's own place against planes, so that nearly equal planes have no edge far away
+# Of a vertex's own place against planes, so that nearly equal planes have no edge far away.
+FIRM = 1e-3
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,7 +47,9 @@ class Planes:
         owner, label = np.divmod(np.unique((owners * count + labels)[labels >= 0]), count)
         normals = self.normals[label]
         off = np.einsum("ij,ij->i", normals, positions[owner]) - self.heights[label]
-        square = _sums((normals[:, :, None] * normals[:, None, :]).reshape(-1, 9), owner, topology.n)
+        square = _sums(
+            (normals[:, :, None] * normals[:, None, :]).reshape(-1, 9), owner, topology.n
+        )
         way = _sums(off[:, None] * normals, owner, topology.n)
         moves = np.linalg.solve(square.reshape(-1, 3, 3) + FIRM * np.eye(3), way[:, :, None])
         return np.asarray(positions - moves[:, :, 0])
@@ -66,7 +69,8 @@ class PlaneSearch:
     def __init__(self, noisy: Positions, filtered: Positions, topology: Topology) -> None:
         self._noisy, self._topology = noisy, topology
         _, self._areas, self._normals = face_geometry(filtered, topology.faces)
-        self._shares = 1.0 / np.maximum(np.diff(topology.around.starts), 1)  # of a vertex in each face around it
+        # Of a vertex in each face around it.
+        self._shares = 1.0 / np.maximum(np.diff(topology.around.starts), 1)
         ones = np.concatenate([np.ones((len(noisy), 1)), noisy], axis=1)
         moments = self._shares[:, None] * (ones[:, :, None] * ones[:, None, :]).reshape(-1, 16)
         self._moments = moments[topology.faces].sum(axis=1)
@@ -75,8 +79,13 @@ class PlaneSearch:
         """Label each face, shape (m,): the same for those that one plane explains."""
 
         def turned(sums: Floats, pairs: Order) -> Floats:
-            apart, areas = np.linalg.norm(np.subtract(*unit(sums[:, :3])[pairs.T]), axis=1), sums[pairs, 3]
-            return np.where(apart < ALIKE, areas.prod(axis=1) / (areas.sum(axis=1) + 1e-300) * apart**2, np.inf)
+            apart, areas = (
+                np.linalg.norm(np.subtract(*unit(sums[:, :3])[pairs.T]), axis=1),
+                sums[pairs, 3],
+            )
+            return np.where(
+                apart < ALIKE, areas.prod(axis=1) / (areas.sum(axis=1) + 1e-300) * apart**2, np.inf
+            )
 
         def explained(moments: Floats, pairs: Order) -> Floats:
             more = _fitted(moments[pairs].sum(axis=1))[2] - _fitted(moments)[2][pairs].sum(axis=1)
@@ -118,7 +127,9 @@ class PlaneSearch:
         fit = (inverse @ (terms.T @ (share * height)))[3:]
         slopes = np.stack([[2.0 * u, v, zero], [zero, u, 2.0 * v]]) / wide
         turns = (slopes * share) @ slopes.transpose(0, 2, 1) / share.sum()
-        chance = np.average(height * height, weights=share) * (turns.sum(axis=0) * inverse[3:, 3:]).sum()
+        chance = (
+            np.average(height * height, weights=share) * (turns.sum(axis=0) * inverse[3:, 3:]).sum()
+        )
         return float(np.sqrt(max(fit @ turns.sum(axis=0) @ fit - chance, 0.0)) + np.sqrt(chance))
 
 
@@ -127,7 +138,9 @@ def _fitted(moments: Floats) -> tuple[Floats, Floats, Floats]:
     moments = moments.reshape(-1, 4, 4)
     counts = np.maximum(moments[:, :1, 0], 1e-9)
     means = moments[:, 0, 1:] / counts
-    values, vectors = np.linalg.eigh(moments[:, 1:, 1:] - moments[:, 0, 1:, None] * means[:, None, :])
+    values, vectors = np.linalg.eigh(
+        moments[:, 1:, 1:] - moments[:, 0, 1:, None] * means[:, None, :]
+    )
     normals = vectors[:, :, 0]
     return normals, np.einsum("ij,ij->i", normals, means), values[:, 0]
 
@@ -136,11 +149,14 @@ def _sums(values: Floats, labels: Order, count: int) -> Floats:
     """Sums of the rows, shape (k, d), of each label from 0 on, shape (count, d)."""
     chosen = np.flatnonzero(labels >= 0)
     return np.asarray(
-        sparse.csr_matrix((np.ones(len(chosen)), (labels[chosen], chosen)), (count, len(labels))) @ values
+        sparse.csr_matrix((np.ones(len(chosen)), (labels[chosen], chosen)), (count, len(labels)))
+        @ values
     )
 
 
-def _joined(labels: Order, values: Floats, pairs: Indices, costs: Callable[[Floats, Order], Floats]) -> Order:
+def _joined(
+    labels: Order, values: Floats, pairs: Indices, costs: Callable[[Floats, Order], Floats]
+) -> Order:
     """Join regions that are each other's cheapest neighbor, round by round, until all costs are infinite."""
     sums, beside = _sums(values, labels, int(labels.max(initial=-1)) + 1), labels[pairs]
     while True:
@@ -158,4 +174,8 @@ def _joined(labels: Order, values: Floats, pairs: Indices, costs: Callable[[Floa
         number = np.arange(len(sums))
         number[joined[:, 1]] = joined[:, 0]
         number = np.unique(number, return_inverse=True)[1].ravel()
-        sums, labels, beside = _sums(sums, number, int(number.max()) + 1), number[labels], number[beside]
+        sums, labels, beside = (
+            _sums(sums, number, int(number.max()) + 1),
+            number[labels],
+            number[beside],
+        )

@@ -21,13 +21,16 @@ from bsm.codec.threads import ordered_map
 MOST_ITERATIONS = 100  # no filter has wanted as many; it keeps the work bounded
 PATIENCE = 2  # iterations that are tried after the best one
 MOST_MEMBERS = 4  # of a blend; two leave 2.2 % more of the angle, eight 0.7 % less and take longer
-GAIN = 1.01  # members join while the error stays below this multiple: several make fewer mistakes than one
-EASIER = 0.93  # what errors after learnt normals count: true shapes have less noise, and more detail, than guesses
+# Members join while the error stays below this multiple: several make fewer mistakes than one.
+GAIN = 1.01
+# What errors after learnt normals count: true shapes have less noise, and more detail, than guesses.
+EASIER = 0.93
 FINE_SHAPE, FILTERED = 1.3, 0.6
 """Finest frequencies of steadied frames over their noise, from which on they hold detail of the shape; and the share of
 an iteration in the guess at other frames."""
 NOISE_OVER = (0.25, 4.0)  # bounds of the noise's energy over that of the rehearsal
-MOST_DROWNED = 0.1  # share of faces lower than the noise is high, from which on angles cannot be estimated
+# Share of faces lower than the noise is high, from which on angles cannot be estimated.
+MOST_DROWNED = 0.1
 
 Goal = Callable[[Reference, Positions], float]
 Progress = Callable[[str, float], None]
@@ -69,9 +72,20 @@ class Rehearsal:
     """A mesh, a guess at it without noise, and the guess with noise again."""
 
     def __init__(
-        self, mesh: Filtered, surface: Filters, finding: Finding, level: NoiseLevel, base: Filter, goal: Goal
+        self,
+        mesh: Filtered,
+        surface: Filters,
+        finding: Finding,
+        level: NoiseLevel,
+        base: Filter,
+        goal: Goal,
     ) -> None:
-        self._mesh, self._surface, self._topology, self._goal = mesh, surface, surface.topology, goal
+        self._mesh, self._surface, self._topology, self._goal = (
+            mesh,
+            surface,
+            surface.topology,
+            goal,
+        )
         self._finding, self._level, self._touched = finding, level, finding.levels > 0.0
         self._synthesis = Synthesis(finding, surface.probe, level.tangential)
         if finding.kind == "unsteady":
@@ -111,7 +125,9 @@ class Rehearsal:
 
     def changed(self, outcome: Rehearsed) -> float:
         """How far the mesh that is rehearsed for is from its result, in the unit of the errors."""
-        return self._goal(Reference(self._performed(outcome), self._topology.faces), self._mesh.positions)
+        return self._goal(
+            Reference(self._performed(outcome), self._topology.faces), self._mesh.positions
+        )
 
     def lost(self, winner: Rehearsed) -> float:
         """Return the roughness that the filter takes from the guess, a logarithm; 0 where there is none."""
@@ -132,7 +148,9 @@ class Rehearsal:
         if drawn > 0.0:
             # Rehearsals draw more noise than there is where triangles are thin.
             strength = float(np.sqrt(np.clip(present / drawn, *NOISE_OVER)))
-        return Forecast(strength * self.untreated / noisy_share, winner.error / noisy_share, reliable)
+        return Forecast(
+            strength * self.untreated / noisy_share, winner.error / noisy_share, reliable
+        )
 
     @property
     def _drowned(self) -> float:
@@ -165,7 +183,9 @@ class Rehearsal:
                 break
         return best
 
-    def compete(self, filters: tuple[Filter, ...], finishes: list[str], progress: Progress) -> Rehearsed:
+    def compete(
+        self, filters: tuple[Filter, ...], finishes: list[str], progress: Progress
+    ) -> Rehearsed:
         """The steps whose mean is best, found greedily, with the best finish."""
         alone = []
         for number, outcome in enumerate(ordered_map(self.attempt, filters, None), start=1):
@@ -202,9 +222,15 @@ class Rehearsal:
         on_planes = {"none": "flat", "learnt": "flat, learnt"}
         self.again(replace(winner, finish=on_planes[winner.finish]))
         result = self._trial.mean(winner.steps)
-        return self._finished(replace(winner, result=result), [on_planes[finish] for finish in finishes])
+        return self._finished(
+            replace(winner, result=result), [on_planes[finish] for finish in finishes]
+        )
 
     def _within(self, positions: Positions, otherwise: Positions) -> Positions:
         if self._finding.exact and self._finding.bound is not None:
             positions = self._finding.bound.within(otherwise, positions)
-        return positions if self._touched.all() else np.where(self._touched[:, None], positions, otherwise)
+        return (
+            positions
+            if self._touched.all()
+            else np.where(self._touched[:, None], positions, otherwise)
+        )

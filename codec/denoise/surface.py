@@ -19,7 +19,8 @@ from bsm.codec.geometry.graph import Lists, edges_of, vertex_faces, vertex_neigh
 from bsm.codec.geometry.metrics import FaceGeometry, face_geometry, face_normals
 
 CROWD = 64  # faces around a vertex from which on they are not near each other because of it
-CROWDED = 16.0  # faces within a distance, over its square: about twice as many as there are of even triangles
+# Faces within a distance, over its square: about twice as many as there are of even triangles.
+CROWDED = 16.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,7 +41,9 @@ class Topology:
     def incidence(self) -> sparse.csr_matrix:
         """Ones where a face, the column, is around a vertex, the row."""
         starts, members = self.around
-        return sparse.csr_matrix((np.ones(len(members)), members, starts), (self.n, len(self.faces)))
+        return sparse.csr_matrix(
+            (np.ones(len(members)), members, starts), (self.n, len(self.faces))
+        )
 
     @cached_property
     def neighbors(self) -> Lists:
@@ -68,9 +71,13 @@ class Topology:
         """For each patch, the rows of `pairs` of which both faces lie in it."""
         m, pairs, (starts, members) = len(self.faces), self.pairs, self.patches
         sides = sparse.csc_matrix(
-            (np.ones(pairs.size, np.int8), pairs.ravel(), 2 * np.arange(len(pairs) + 1)), (m, len(pairs))
+            (np.ones(pairs.size, np.int8), pairs.ravel(), 2 * np.arange(len(pairs) + 1)),
+            (m, len(pairs)),
         )
-        held = sparse.csr_matrix((np.ones(len(members), np.int8), members, starts), (m, m)) @ sides.tocsr()
+        held = (
+            sparse.csr_matrix((np.ones(len(members), np.int8), members, starts), (m, m))
+            @ sides.tocsr()
+        )
         inner = (held == 2).tocsr()
         return Lists(inner.indptr.astype(np.int64), inner.indices)
 
@@ -89,9 +96,15 @@ def surroundings(positions: Positions, topology: Topology, radius: float) -> Lis
     most = int(CROWDED * radius**2)
     points = face_geometry(positions, topology.faces).centroids
     radius, count = radius * mean_centroid_distance(points, topology.pairs), len(points)
-    starts, seen, reached = np.zeros(count + 1, np.int64), np.full(count, -1, np.int32), np.empty(33 * count, np.int32)
+    starts, seen, reached = (
+        np.zeros(count + 1, np.int64),
+        np.full(count, -1, np.int32),
+        np.empty(33 * count, np.int32),
+    )
     done = 0
-    while (done := _kernels.reach(points, topology.patches, radius, most, done, seen, starts, reached)) < count:
+    while (
+        done := _kernels.reach(points, topology.patches, radius, most, done, seen, starts, reached)
+    ) < count:
         # A row has at most as many members as there are faces; with room for one, the kernel goes on.
         reached = np.concatenate([reached, np.empty(len(reached) + count, np.int32)])
     return Lists(starts, reached[: starts[count]].copy())
@@ -124,7 +137,8 @@ def shared_edges(places: Floats, topology: Topology) -> Hinges:
     return Hinges(topology.pairs[hinge], tips, ends, begin, along / lengths[:, None], lengths)
 
 
-MOST_FOLDED = 0.03  # share of the faces that are turned over, from which on the shape itself is folded
+# Share of the faces that are turned over, from which on the shape itself is folded.
+MOST_FOLDED = 0.03
 MENDING_ROUNDS, MENDING_STEPS = 10, 5
 
 
@@ -132,7 +146,9 @@ def folds(positions: Positions, topology: Topology) -> Mask:
     """Return which faces, shape (m,), look the other way than those around them."""
     normals = face_normals(positions, topology.faces)
     starts, members = topology.patches
-    around = sparse.csr_matrix((np.ones(len(members)), members, starts), (len(normals), len(normals)))
+    around = sparse.csr_matrix(
+        (np.ones(len(members)), members, starts), (len(normals), len(normals))
+    )
     mean = unit(around @ normals - normals)
     # Folds come in groups. They must not tell how the surface lies.
     sound = np.einsum("ij,ij->i", normals, mean) > 0.0
@@ -145,7 +161,10 @@ def mend_folds(positions: Positions, topology: Topology, average: sparse.csr_mat
 
     Noise along the surface turns small triangles over, and filters of normals believe them.
     """
-    normals, unknown = face_normals(positions, topology.faces), np.zeros(len(topology.faces), np.bool_)
+    normals, unknown = (
+        face_normals(positions, topology.faces),
+        np.zeros(len(topology.faces), np.bool_),
+    )
     for _ in range(MENDING_ROUNDS):
         turned = folds(positions, topology)
         if not 0.0 < turned.mean() < MOST_FOLDED:
@@ -163,7 +182,9 @@ def mend_folds(positions: Positions, topology: Topology, average: sparse.csr_mat
 def unit(vectors: Floats, otherwise: Floats | float = 0.0) -> Floats:
     """Rows of length one in the directions of those of `vectors`, shape (..., d); `otherwise` where they are zero."""
     lengths = np.sqrt(np.einsum("...i,...i->...", vectors, vectors))[..., None]
-    return np.asarray(np.where(lengths > 0.0, vectors / np.where(lengths > 0.0, lengths, 1.0), otherwise))
+    return np.asarray(
+        np.where(lengths > 0.0, vectors / np.where(lengths > 0.0, lengths, 1.0), otherwise)
+    )
 
 
 def surface_normals(positions: Positions, topology: Topology) -> Floats:
@@ -183,22 +204,32 @@ def mean_centroid_distance(centroids: Floats, pairs: Indices) -> float:
 
 
 def follow_normals(
-    positions: Positions, topology: Topology, normals: Floats, iterations: int, free: Mask | None = None
+    positions: Positions,
+    topology: Topology,
+    normals: Floats,
+    iterations: int,
+    free: Mask | None = None,
 ) -> Positions:
     """Move the vertices until the faces agree with given normals (Sun et al. 2007; equations 12 and 13 of the paper)"""
     moved = np.array(positions, dtype=np.float64)
     movable = np.ones(len(positions), np.uint8) if free is None else free.astype(np.uint8)
     heights = np.empty(len(topology.faces))
-    _kernels.follow_normals(moved, topology.faces, topology.around, normals, iterations, movable, heights)
+    _kernels.follow_normals(
+        moved, topology.faces, topology.around, normals, iterations, movable, heights
+    )
     return moved
 
 
-def filter_normals(geometry: FaceGeometry, guide: Floats, near: Lists, sigma_s: float, sigma_r: float) -> Floats:
+def filter_normals(
+    geometry: FaceGeometry, guide: Floats, near: Lists, sigma_s: float, sigma_r: float
+) -> Floats:
     """Average each face's normal with its neighbors', by area, distance and likeness of guides (paper, 9 to 11)."""
     return unit(weighed_normals(geometry, guide, near, sigma_s, sigma_r)[:, :3], geometry.normals)
 
 
-def weighed_normals(geometry: FaceGeometry, guide: Floats, near: Lists, sigma_s: float, sigma_r: float) -> Floats:
+def weighed_normals(
+    geometry: FaceGeometry, guide: Floats, near: Lists, sigma_s: float, sigma_r: float
+) -> Floats:
     """The sums of those normals, and of their weights, shape (m, 4)."""
     packed, sums = np.empty((len(guide), 8)), np.empty((len(guide), 4))
     _kernels.weighed_normals(geometry, guide, near, sigma_s, sigma_r, packed, sums)
@@ -210,30 +241,40 @@ def patch_guidance(geometry: FaceGeometry, topology: Topology) -> Floats:
     _, areas, normals = geometry
     steps = pair_distances(normals, topology.pairs)
     scores, means, guide = np.empty_like(areas), np.empty_like(normals), np.empty_like(normals)
-    _kernels.patch_guidance(normals, areas, topology.patches, steps, topology.inner, scores, means, guide)
+    _kernels.patch_guidance(
+        normals, areas, topology.patches, steps, topology.inner, scores, means, guide
+    )
     return guide
 
 
 SIGMA_R, RADIUS, VERTEX_ITERATIONS = 0.35, 2.0, 10
 """The authors' defaults; with half or twice as many vertex iterations, 1.4 and 0.9 % more of the angle is left."""
 
-Guide = Callable[[FaceGeometry, Topology], Floats]  # to the unit normals, shape (m, 3), that the range kernel compares
+# To the unit normals, shape (m, 3), that the range kernel compares.
+Guide = Callable[[FaceGeometry, Topology], Floats]
 
 
 class GuidedFilter:
     """The filter with its neighborhoods, which are found once."""
 
     def __init__(
-        self, positions: Positions, topology: Topology, within: Callable[[Positions], Positions] = np.asarray
+        self,
+        positions: Positions,
+        topology: Topology,
+        within: Callable[[Positions], Positions] = np.asarray,
     ) -> None:
         self.topology, self._within = topology, within
         self._near = surroundings(positions, topology, RADIUS)
 
-    def step(self, positions: Positions, guide: Guide = patch_guidance, sigma_r: float = SIGMA_R) -> Positions:
+    def step(
+        self, positions: Positions, guide: Guide = patch_guidance, sigma_r: float = SIGMA_R
+    ) -> Positions:
         """Positions after one iteration: filter the normals once, then let the vertices follow."""
         geometry = face_geometry(positions, self.topology.faces)
         sigma_s = mean_centroid_distance(geometry.centroids, self.topology.pairs)
-        normals = filter_normals(geometry, guide(geometry, self.topology), self._near, sigma_s, sigma_r)
+        normals = filter_normals(
+            geometry, guide(geometry, self.topology), self._near, sigma_s, sigma_r
+        )
         return self._within(follow_normals(positions, self.topology, normals, VERTEX_ITERATIONS))
 
     def iterates(
@@ -250,7 +291,9 @@ def guided_normal_filtering(positions: Positions, faces: Faces, iterations: int 
     return next(islice(guided.iterates(np.array(positions, np.float64)), iterations, None))
 
 
-def bilateral_normal_filtering(positions: Positions, faces: Faces, iterations: int = 20) -> Positions:
+def bilateral_normal_filtering(
+    positions: Positions, faces: Faces, iterations: int = 20
+) -> Positions:
     """Denoise by bilateral filtering of the normals over faces that share a vertex; the boundary stays."""
     positions = np.ascontiguousarray(positions, dtype=np.float64)
     topology = Topology(faces, len(positions))
@@ -263,12 +306,19 @@ def bilateral_normals(positions: Positions, topology: Topology, sigma_r: float) 
     geometry = face_geometry(positions, topology.faces)
     starts, members = topology.patches
     others = members != np.repeat(np.arange(len(starts) - 1), np.diff(starts))
-    near = Lists(starts - np.arange(len(starts)), members[others])  # each patch without its own face
+    # Each patch without its own face.
+    near = Lists(starts - np.arange(len(starts)), members[others])
     sigma_s = mean_centroid_distance(geometry.centroids, topology.pairs)
     while True:
         yield geometry.normals
-        geometry = geometry._replace(normals=filter_normals(geometry, geometry.normals, near, sigma_s, sigma_r))
+        geometry = geometry._replace(
+            normals=filter_normals(geometry, geometry.normals, near, sigma_s, sigma_r)
+        )
 
 
-FineStep = Callable[..., Positions]  # from positions (n, 3), faces (m, 3) and iterations, by default the method's own
-FINE_STEPS: dict[str, FineStep] = {"guided": guided_normal_filtering, "bilateral-normal": bilateral_normal_filtering}
+# From positions (n, 3), faces (m, 3) and iterations, by default the method's own.
+FineStep = Callable[..., Positions]
+FINE_STEPS: dict[str, FineStep] = {
+    "guided": guided_normal_filtering,
+    "bilateral-normal": bilateral_normal_filtering,
+}

@@ -33,7 +33,9 @@ class Jumps:
     lengths: Floats
 
 
-def varied_little(noisy: Positions, places: Positions, topology: Topology, weight: float = 1.0) -> Positions:
+def varied_little(
+    noisy: Positions, places: Positions, topology: Topology, weight: float = 1.0
+) -> Positions:
     """Return the positions, shape (n, 3), whose normals vary least; `places` are smoother ones, to measure on."""
     edge = mean_edge_length(noisy, topology.faces) or 1.0
     normals = smooth_normals(face_normals(noisy, topology.faces), places / edge, topology, weight)
@@ -61,7 +63,10 @@ def smooth_normals(noisy: Floats, places: Positions, topology: Topology, weight:
         target = pull + first_back @ (first - first_price) + second_back @ (second - second_price)
         unknowns = _solved(system, target, unknowns)
         unknowns[:faces] = unit(unknowns[:faces], noisy)
-        first_seen, second_seen = jumps.first @ unknowns + first_price, jumps.second @ unknowns + second_price
+        first_seen, second_seen = (
+            jumps.first @ unknowns + first_price,
+            jumps.second @ unknowns + second_price,
+        )
         first = _shrunk(first_seen, FIRST * smoothed)
         # The six numbers of a gradient's jump shrink together, whichever way the axes lie.
         second = _shrunk(second_seen.reshape(edges, 6), SECOND * smoothed).reshape(2 * edges, 3)
@@ -72,7 +77,11 @@ def smooth_normals(noisy: Floats, places: Positions, topology: Topology, weight:
 def measure_jumps(places: Positions, topology: Topology) -> Jumps:
     """Return the differences over the edges of a mesh."""
     hinges = shared_edges(places, topology)
-    geometry, faces, edges = face_geometry(places, topology.faces), len(topology.faces), len(hinges.pairs)
+    geometry, faces, edges = (
+        face_geometry(places, topology.faces),
+        len(topology.faces),
+        len(hinges.pairs),
+    )
     side = unit(places[topology.faces[:, 1]] - places[topology.faces[:, 0]])
     axes = side, np.cross(geometry.normals, side)
     across = geometry.centroids[hinges.pairs] - hinges.begin[:, None]
@@ -95,7 +104,11 @@ def measure_jumps(places: Positions, topology: Topology) -> Jumps:
     where = np.tile(np.arange(2 * edges), 4), np.repeat(np.concatenate(columns), 2)
     second = sparse.csr_matrix((np.concatenate(turned), where), (2 * edges, 2 * faces))
     none = sparse.csr_matrix((2 * edges, faces))
-    return Jumps(sparse.hstack([differences, gradients]).tocsr(), sparse.hstack([none, second]).tocsr(), hinges.lengths)
+    return Jumps(
+        sparse.hstack([differences, gradients]).tocsr(),
+        sparse.hstack([none, second]).tocsr(),
+        hinges.lengths,
+    )
 
 
 def _solved(system: sparse.csr_matrix, target: Floats, start: Floats) -> Floats:

@@ -78,16 +78,26 @@ class Attribute:
         # Lone surrogates come from file names that are not text. They cannot be written as UTF-8.
         encoded = self.name.encode(errors="ignore")
         if encoded.decode() != self.name or b"\0" in encoded:
-            raise MeshError(f"the name of an attribute must not contain NUL or lone surrogates: {self.name!r}")
+            raise MeshError(
+                f"the name of an attribute must not contain NUL or lone surrogates: {self.name!r}"
+            )
         if not 1 <= len(encoded) <= MOST_NAME_BYTES:
-            raise MeshError(f"the name of an attribute must have 1 to {MOST_NAME_BYTES} bytes: {self.name!r}")
+            raise MeshError(
+                f"the name of an attribute must have 1 to {MOST_NAME_BYTES} bytes: {self.name!r}"
+            )
         if self.domain not in DOMAINS or self.semantic not in SEMANTICS:
-            raise MeshError(f"{what} has an unknown domain or semantic: {self.domain!r}, {self.semantic!r}")
+            raise MeshError(
+                f"{what} has an unknown domain or semantic: {self.domain!r}, {self.semantic!r}"
+            )
         values = _stored(as_array(self.values, what), what)
         if self.domain == "corner":
             if self.indices is None and len(values) % 3:
-                raise MeshError(f"{what} has {len(values)} values, and not three for each face; or give indices")
-            numbers = np.arange(len(values)).reshape(-1, 3) if self.indices is None else self.indices
+                raise MeshError(
+                    f"{what} has {len(values)} values, and not three for each face; or give indices"
+                )
+            numbers = (
+                np.arange(len(values)).reshape(-1, 3) if self.indices is None else self.indices
+            )
             indices = as_array(numbers, f"the indices of {what}")
             if indices.ndim != 2 or indices.shape[1] != 3 or indices.dtype.kind not in "iu":
                 raise MeshError(f"the indices of {what} must be integers of shape (m, 3)")
@@ -110,7 +120,9 @@ class Attribute:
         expected = vertices if self.domain == "vertex" else faces
         if rows != expected:
             what = f"{expected} {'vertices' if self.domain == 'vertex' else 'faces'}"
-            raise MeshError(f"the attribute {self.name!r} has {rows} rows, where the mesh has {what}")
+            raise MeshError(
+                f"the attribute {self.name!r} has {rows} rows, where the mesh has {what}"
+            )
 
     def taken(self, vertices: Order, faces: Order) -> Attribute:
         """Return the attribute for a mesh whose vertex j was `vertices[j]` here, and whose face i was `faces[i]`.
@@ -121,7 +133,9 @@ class Attribute:
             return replace(self, values=self.values[vertices if self.domain == "vertex" else faces])
         # Values that no remaining corner uses would still be sent.
         used, where = np.unique(self.indices[faces], return_inverse=True)
-        return replace(self, values=self.values[used], indices=where.reshape(-1, 3).astype(np.int32))
+        return replace(
+            self, values=self.values[used], indices=where.reshape(-1, 3).astype(np.int32)
+        )
 
 
 def _stored(values: npt.NDArray[Any], what: str) -> npt.NDArray[Any]:
@@ -130,7 +144,9 @@ def _stored(values: npt.NDArray[Any], what: str) -> npt.NDArray[Any]:
     if values.ndim == 1:
         values = values[:, None]
     if values.ndim != 2 or not 1 <= values.shape[1] <= MOST_COMPONENTS:
-        raise MeshError(f"the values of {what} must have shape (k,) or (k, 1 to {MOST_COMPONENTS}), not {values.shape}")
+        raise MeshError(
+            f"the values of {what} must have shape (k,) or (k, 1 to {MOST_COMPONENTS}), not {values.shape}"
+        )
     if values.dtype == bool:
         values = values.astype(np.uint8)
     elif values.dtype == np.float16:
@@ -138,11 +154,16 @@ def _stored(values: npt.NDArray[Any], what: str) -> npt.NDArray[Any]:
     elif values.dtype in (np.int64, np.uint64):
         # numpy makes 64 bits of every Python integer, and hardly any attribute needs them.
         narrow = np.int32 if values.size == 0 or values.max() < 1 << 31 else np.uint32
-        if values.size and not np.iinfo(narrow).min <= values.min() <= values.max() <= np.iinfo(narrow).max:
+        if (
+            values.size
+            and not np.iinfo(narrow).min <= values.min() <= values.max() <= np.iinfo(narrow).max
+        ):
             raise MeshError(f"the values of {what} do not fit into 32 bits")
         values = values.astype(narrow)
     if values.dtype.name not in KINDS:
-        raise MeshError(f"the values of {what} must be integers or floats of at most 64 bits, not {values.dtype}")
+        raise MeshError(
+            f"the values of {what} must be integers or floats of at most 64 bits, not {values.dtype}"
+        )
     if values.dtype.kind == "f" and not np.isfinite(values).all():
         raise MeshError(f"a value of {what} is not finite")
     return np.ascontiguousarray(values)
@@ -181,7 +202,9 @@ def compare_values(
     original: npt.NDArray[Any], decoded: npt.NDArray[Any], areas: npt.NDArray[np.float64] | None
 ) -> AttributeComparison:
     """Compare values of corresponding corners, shapes (..., c); normals (with `areas`) by their angles as well."""
-    before, after = (values.reshape(-1, values.shape[-1]).astype(np.float64) for values in (original, decoded))
+    before, after = (
+        values.reshape(-1, values.shape[-1]).astype(np.float64) for values in (original, decoded)
+    )
     error = np.abs(after - before)
     spread = float(np.ptp(before))
     if areas is None:
@@ -190,7 +213,9 @@ def compare_values(
     lengths = [np.linalg.norm(vectors, axis=1, keepdims=True) for vectors in (before, after)]
     known = ((lengths[0] > 0) & (lengths[1] > 0))[:, 0]
     a, b = before[known] / lengths[0][known], after[known] / lengths[1][known]
-    angles: Matrix = np.degrees(2 * np.arctan2(np.linalg.norm(a - b, axis=1), np.linalg.norm(a + b, axis=1)))
+    angles: Matrix = np.degrees(
+        2 * np.arctan2(np.linalg.norm(a - b, axis=1), np.linalg.norm(a + b, axis=1))
+    )
     weights = areas.reshape(-1)[known]
     mean = float(np.average(angles, weights=weights)) if weights.sum() > 0.0 else 0.0
     turned = float(angles.max(initial=0.0)), mean

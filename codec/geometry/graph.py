@@ -31,7 +31,9 @@ def graph_of_faces(faces: Indices, size: int) -> Graph:
     # Two directions for each of three sides is the most that there can be. Memory comes from here, since kernels take
     # none.
     ends, second = np.empty(6 * len(faces), np.int32), np.empty(6 * len(faces), np.int32)
-    kept = _kernels.collect_edges(np.ascontiguousarray(faces, np.int32), offsets, filled, ends, second)
+    kept = _kernels.collect_edges(
+        np.ascontiguousarray(faces, np.int32), offsets, filled, ends, second
+    )
     # Copied, or a view would keep the whole buffer alive.
     return Graph(offsets, ends[:kept].copy())
 

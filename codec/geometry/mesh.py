@@ -71,10 +71,14 @@ class TriangleMesh:
 
     def __post_init__(self) -> None:
         attributes: object = self.attributes
-        if not isinstance(attributes, (tuple, list)) or not all(isinstance(a, Attribute) for a in attributes):
+        if not isinstance(attributes, (tuple, list)) or not all(
+            isinstance(a, Attribute) for a in attributes
+        ):
             raise ArgumentError("the attributes of a mesh must be a list of Attribute")
         if not isinstance(self.metadata, Mapping):
-            raise ArgumentError(f"metadata must be a mapping from names, not {type(self.metadata).__name__}")
+            raise ArgumentError(
+                f"metadata must be a mapping from names, not {type(self.metadata).__name__}"
+            )
         # Copies that cannot be written to: a caller who changes an array later would change a mesh that was checked.
         positions = as_array(self.positions, "positions", np.float64)
         faces = as_array(self.faces, "faces")
@@ -82,25 +86,34 @@ class TriangleMesh:
             raise MeshError(f"positions must have shape (n, 3), not {positions.shape}")
         if not np.isfinite(positions).all():
             row = int(np.argmin(np.isfinite(positions).all(axis=1)))
-            raise MeshError(f"vertex {row} has a coordinate that is not finite; remove or repair it")
+            raise MeshError(
+                f"vertex {row} has a coordinate that is not finite; remove or repair it"
+            )
         # Before the shape: an empty list also has the wrong shape, but "no faces" is the helpful error.
         if faces.size == 0:
             raise NoFacesError("the mesh has no faces; point clouds are not supported")
         if faces.ndim != 2 or faces.shape[1] != 3:
-            raise MeshError(f"faces must have shape (m, 3), not {faces.shape}; triangulate polygons first")
+            raise MeshError(
+                f"faces must have shape (m, 3), not {faces.shape}; triangulate polygons first"
+            )
         if faces.dtype.kind not in "iu":
             raise MeshError(f"faces must be integers, not {faces.dtype}")
         # The least and the largest first: masks of all corners are as large as a quarter of the faces.
         if faces.min() < 0 or faces.max() >= len(positions):
             bad = (faces < 0) | (faces >= len(positions))
             row = int(np.argmax(bad.any(axis=1)))
-            raise MeshError(f"face {row} refers to vertex {faces[row].tolist()}, outside 0..{len(positions) - 1}")
+            raise MeshError(
+                f"face {row} refers to vertex {faces[row].tolist()}, outside 0..{len(positions) - 1}"
+            )
         faces = faces.astype(np.int32, copy=False)
         object.__setattr__(self, "positions", sealed(positions))
         object.__setattr__(self, "faces", sealed(faces))
         object.__setattr__(self, "attributes", tuple(self.attributes))
         # numpy's scalars are not JSON, and not msgpack.
-        plain = {k: value.item() if isinstance(value, np.generic) else value for k, value in self.metadata.items()}
+        plain = {
+            k: value.item() if isinstance(value, np.generic) else value
+            for k, value in self.metadata.items()
+        }
         object.__setattr__(self, "metadata", MappingProxyType(plain))
         names = [attribute.name for attribute in self.attributes]
         if len(set(names)) < len(names):
@@ -117,7 +130,9 @@ class TriangleMesh:
 
         def __getattr__(self, name: str) -> Any:
             """Raise an `AttributeError` that has our name for that of another library."""
-            known = next((told for told, names in _OTHER_NAMES.items() if name in names.split()), "")
+            known = next(
+                (told for told, names in _OTHER_NAMES.items() if name in names.split()), ""
+            )
             advice = f"; {known}" if known else ""
             raise AttributeError(f"a TriangleMesh has no {name}{advice}", name=name, obj=self)
 
@@ -137,7 +152,9 @@ class TriangleMesh:
     def moved(self, positions: Positions) -> tuple[TriangleMesh, tuple[str, ...]]:
         """Return the mesh with new positions, shape (n, 3), and the names of its normals, which are dropped."""
         # Normals describe the old surface. Colors and textures do not depend on where a vertex is.
-        normals = tuple(attribute.name for attribute in self.attributes if attribute.semantic == "normal")
+        normals = tuple(
+            attribute.name for attribute in self.attributes if attribute.semantic == "normal"
+        )
         kept = tuple(attribute for attribute in self.attributes if attribute.semantic != "normal")
         return replace(self, positions=positions, attributes=kept), normals
 
@@ -155,7 +172,9 @@ class TriangleMesh:
         every_face = np.arange(len(self.faces))
         attributes = tuple(attribute.taken(kept, every_face) for attribute in self.attributes)
         faces = np.searchsorted(kept, self.faces).astype(np.int32)
-        return replace(self, positions=self.positions[kept], faces=faces, attributes=attributes), kept
+        return replace(
+            self, positions=self.positions[kept], faces=faces, attributes=attributes
+        ), kept
 
 
 LARGEST = 1e100

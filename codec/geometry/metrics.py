@@ -68,7 +68,8 @@ class Comparison:
 SIZES = 1e-70, 1e70
 """Smallest extent and largest coordinate of meshes that are compared: squares of areas are numbers."""
 # Any smaller angle would let an encoder collapse faces to escape a large error.
-LOST = math.pi  # angle of a face without area; no rounding of its vertices can give it a normal that is farther off
+# Angle of a face without area; no rounding of its vertices can give it a normal that is farther off.
+LOST = math.pi
 
 
 class Original:
@@ -91,7 +92,9 @@ class Original:
     def angle(self, decoded: Positions, lost: float = LOST) -> float:
         """Mean angle, degrees, between corresponding normals of this and of `decoded`, shape (n, 3)."""
         decoded = np.ascontiguousarray(decoded, np.float64)
-        return math.degrees(_kernels.weighted_angle(self.normals, self.weights, decoded, self.faces, lost))
+        return math.degrees(
+            _kernels.weighted_angle(self.normals, self.weights, decoded, self.faces, lost)
+        )
 
 
 class Reference:
@@ -162,7 +165,9 @@ class Reference:
 
     def _checked(self, decoded: Positions) -> Positions:
         if decoded.shape != self.positions.shape:
-            raise MeshError(f"decoded positions have shape {decoded.shape}, the original's {self.positions.shape}")
+            raise MeshError(
+                f"decoded positions have shape {decoded.shape}, the original's {self.positions.shape}"
+            )
         return np.ascontiguousarray(decoded, dtype=np.float64)
 
 
@@ -172,7 +177,11 @@ def compare(original: Positions, decoded: Positions, faces: Faces) -> Comparison
 
 def rms_over_edge(original: Positions, decoded: Positions, faces: Faces) -> float:
     """Root mean square distance of corresponding vertices over the original's mean edge length."""
-    return float(np.linalg.norm(original - decoded) / math.sqrt(len(original)) / mean_edge_length(original, faces))
+    return float(
+        np.linalg.norm(original - decoded)
+        / math.sqrt(len(original))
+        / mean_edge_length(original, faces)
+    )
 
 
 def mean_edge_length(positions: Positions, faces: Faces) -> float:
@@ -199,8 +208,13 @@ class FaceGeometry(NamedTuple):
 def face_geometry(positions: Positions, faces: Faces, whole: Mask | None = None) -> FaceGeometry:
     """`whole`, if it has room: which faces have a normal that is not rounding alone, as `weighted_angle` tells."""
     geometry = FaceGeometry(np.empty(faces.shape), np.empty(len(faces)), np.empty(faces.shape))
-    positions, faces = np.ascontiguousarray(positions, np.float64), np.ascontiguousarray(faces, np.int32)
-    _kernels.face_geometry(positions, faces, *geometry, (np.empty(0) if whole is None else whole).view(np.uint8))
+    positions, faces = (
+        np.ascontiguousarray(positions, np.float64),
+        np.ascontiguousarray(faces, np.int32),
+    )
+    _kernels.face_geometry(
+        positions, faces, *geometry, (np.empty(0) if whole is None else whole).view(np.uint8)
+    )
     return geometry
 
 
@@ -252,19 +266,28 @@ class SurfaceDistance:
 
 
 def surface_distance(
-    first: Positions, first_faces: Faces, second: Positions, second_faces: Faces, samples: int = SAMPLES, seed: int = 0
+    first: Positions,
+    first_faces: Faces,
+    second: Positions,
+    second_faces: Faces,
+    samples: int = SAMPLES,
+    seed: int = 0,
 ) -> SurfaceDistance:
     """Distances between two surfaces, which need not share connectivity."""
     forward, forward_mean = _one_sided(first, first_faces, second, second_faces, samples, seed)
     backward, backward_mean = _one_sided(second, second_faces, first, first_faces, samples, seed)
-    return SurfaceDistance(max(forward, backward), forward, backward, max(forward_mean, backward_mean))
+    return SurfaceDistance(
+        max(forward, backward), forward, backward, max(forward_mean, backward_mean)
+    )
 
 
 def sample_surface(positions: Positions, faces: Faces, samples: int, seed: int) -> Floats:
     """Points spread evenly over the area, shape (samples, 3); without points if the area is 0."""
     corners = positions[faces]
     # Not `face_geometry`, whose areas are zero below rounding: a thin face has a share of the samples, too.
-    areas = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
+    areas = np.linalg.norm(
+        np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1
+    )
     if not areas.sum() > 0.0:
         return np.empty((0, 3))
     random = np.random.default_rng(seed)
@@ -275,7 +298,9 @@ def sample_surface(positions: Positions, faces: Faces, samples: int, seed: int) 
     return np.asarray((1.0 - height) * a + height * (1.0 - along) * b + height * along * c)
 
 
-def distances_to_surface(points: Floats, positions: Positions, faces: Faces, enough: Floats | float = 0.0) -> Floats:
+def distances_to_surface(
+    points: Floats, positions: Positions, faces: Faces, enough: Floats | float = 0.0
+) -> Floats:
     """Distance of each point to the nearest triangle, shape (k,): exact where it is above `enough`."""
     # The kernel leaves a search as soon as the point is known to be near enough, which is most of the time it takes.
     distances = np.zeros(len(points)) + enough
@@ -289,7 +314,9 @@ def nearest_points(points: Floats, positions: Positions, faces: Faces) -> tuple[
     corners = positions[faces[which]]
     sides, away = np.roll(corners, -1, axis=1) - corners, points[:, None] - corners
     along = (away * sides).sum(axis=2) / np.maximum(np.square(sides).sum(axis=2), 1e-300)
-    inside = np.roll((np.cross(sides, away) * np.cross(sides[:, :1], sides[:, 1:2])).sum(axis=2), -1, axis=1)
+    inside = np.roll(
+        (np.cross(sides, away) * np.cross(sides[:, :1], sides[:, 1:2])).sum(axis=2), -1, axis=1
+    )
     inside /= np.maximum(inside.sum(axis=1, keepdims=True), 1e-300)
     # Four candidates: the nearest point of each side, and the foot in the plane. The nearest of those that are in the
     # triangle is the answer, and no case analysis is needed.
@@ -305,21 +332,33 @@ def farthest_from_surface(points: Floats, positions: Positions, faces: Faces) ->
     return _nearest(points, positions, faces, np.empty(0))[0]
 
 
-def _nearest(points: Floats, positions: Positions, faces: Faces, distances: Floats) -> tuple[float, Order]:
+def _nearest(
+    points: Floats, positions: Positions, faces: Faces, distances: Floats
+) -> tuple[float, Order]:
     """The largest distance, all of them if there is room, and the nearest triangles, by a tree of boxes."""
     # A tree of boxes and not a k-d tree of points: the nearest vertex need not be of the nearest triangle.
     corners, m = np.ascontiguousarray(positions[faces], dtype=np.float64), len(faces)
     order, first, count = (np.empty(size, np.int64) for size in (m, 2 * m + 1, 2 * m + 1))
     low, high = np.empty((2 * m + 1, 3)), np.empty((2 * m + 1, 3))
     _kernels.build_tree(corners.min(axis=1), corners.max(axis=1), order, low, high, first, count)
-    tree, which = (corners[order].reshape(m, 9), low, high, first, count, order), np.empty(len(points), np.int64)
+    tree, which = (
+        (corners[order].reshape(m, 9), low, high, first, count, order),
+        np.empty(len(points), np.int64),
+    )
     return _kernels.nearest_distances(np.ascontiguousarray(points), tree, distances, which), which
 
 
 def _one_sided(
-    source: Positions, source_faces: Faces, target: Positions, target_faces: Faces, samples: int, seed: int
+    source: Positions,
+    source_faces: Faces,
+    target: Positions,
+    target_faces: Faces,
+    samples: int,
+    seed: int,
 ) -> tuple[float, float]:
-    spread = distances_to_surface(sample_surface(source, source_faces, samples, seed), target, target_faces)
+    spread = distances_to_surface(
+        sample_surface(source, source_faces, samples, seed), target, target_faces
+    )
     corners = distances_to_surface(source[distinct(source_faces)], target, target_faces)
     mean = float(spread.mean()) if len(spread) else float(corners.mean())
     return float(max(corners.max(), spread.max(initial=0.0))), mean

@@ -47,7 +47,9 @@ def turn_of(positions: Matrix, faces: Faces) -> Turn:
     # Opposite sides of a box count as one plane.
     normals *= np.sign(np.take_along_axis(normals, np.abs(normals).argmax(axis=1)[:, None], axis=1))
     # Rounded directions make planes by sorting. Comparing all pairs would take quadratic time.
-    directions = np.rint(normals / (SAME * np.sqrt(np.square(normals).sum(axis=1)) + 1e-300)[:, None])
+    directions = np.rint(
+        normals / (SAME * np.sqrt(np.square(normals).sum(axis=1)) + 1e-300)[:, None]
+    )
     _, plane = np.unique(directions @ (1e8, 1e4, 1.0), return_inverse=True)
     normals = np.array([np.bincount(plane, of_axis) for of_axis in normals.T]).T
     areas = np.sqrt(np.square(normals).sum(axis=1))
@@ -69,7 +71,12 @@ def turn_of(positions: Matrix, faces: Faces) -> Turn:
         return UNTURNED
     signs = np.array(list(product((1.0, -1.0), repeat=3)))[:, :, None]
     # 24 turns lead to the same axes. The nearest to no turn at all moves the mesh least.
-    alike = [axes for order in permutations(best) for axes in signs * np.array(order) if np.linalg.det(axes) > 0.0]
+    alike = [
+        axes
+        for order in permutations(best)
+        for axes in signs * np.array(order)
+        if np.linalg.det(axes) > 0.0
+    ]
     whole, *others = map(float, quaternion_of(max(alike, key=np.trace).T))
     # The largest real part is far from zero for the nearest turn, so that dividing by it is safe.
     return tuple(float(np.float32(entry / whole)) for entry in others)

@@ -76,20 +76,28 @@ def split_with_origin(mesh: TriangleMesh) -> tuple[TriangleMesh, Indices]:
         numbers = row_numbers(attribute.values)[attribute.indices.ravel()]
         rows.append(np.concatenate([numbers, np.full(size, -1, np.int32)]))
     is_loose = np.bincount(mesh.faces.ravel(), minlength=size) == 0
-    kept = np.concatenate([np.ones(mesh.faces.size, np.bool_), is_loose])  # a vertex of no face stays one
+    # A vertex of no face stays one.
+    kept = np.concatenate([np.ones(mesh.faces.size, np.bool_), is_loose])
     numbers = row_numbers(np.stack(rows, axis=1)[kept])
     corners = numbers[: mesh.faces.size]
     some = np.empty(numbers.max() + 1, np.int64)
     some[numbers[::-1]] = np.flatnonzero(kept)[::-1]
     vertices = rows[0][some]
-    some = np.minimum(some, mesh.faces.size - 1)  # a vertex of no face gets the value of some corner: it shows nowhere
+    # A vertex of no face gets the value of some corner: it shows nowhere.
+    some = np.minimum(some, mesh.faces.size - 1)
 
     def split(attribute: Attribute) -> Attribute:
         if attribute.indices is not None:
             values = attribute.values[attribute.indices.ravel()[some]]
             return replace(attribute, values=values, domain="vertex", indices=None)
-        return replace(attribute, values=attribute.values[vertices]) if attribute.domain == "vertex" else attribute
+        return (
+            replace(attribute, values=attribute.values[vertices])
+            if attribute.domain == "vertex"
+            else attribute
+        )
 
     attributes = tuple(map(split, mesh.attributes))
     faces = corners.reshape(-1, 3)
-    return replace(mesh, positions=mesh.positions[vertices], faces=faces, attributes=attributes), vertices
+    return replace(
+        mesh, positions=mesh.positions[vertices], faces=faces, attributes=attributes
+    ), vertices

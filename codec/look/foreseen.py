@@ -30,7 +30,9 @@ class Foresight:
         self._edges = _edges_between_two(self._faces)
         # Two opposite sides see the same outlines, so that a view has both, with the light of each.
         pairs = zip(TOWARDS[::2], TOWARDS[1::2], strict=True)
-        self._views = np.array([[axes(one)[2], light_of(one), light_of(other)] for one, other in pairs]).reshape(-1, 9)
+        self._views = np.array(
+            [[axes(one)[2], light_of(one), light_of(other)] for one, other in pairs]
+        ).reshape(-1, 9)
 
     def look(self, original: Positions, decoded: Positions, sides: Matrix | None = None) -> float:
         """Return about the distance of a frame from the original one, both of shape (n, 3).
@@ -39,10 +41,14 @@ class Foresight:
         """
         if sides is None:
             sides = sides_of(original)
-        original, decoded = (np.ascontiguousarray(positions, np.float64) for positions in (original, decoded))
+        original, decoded = (
+            np.ascontiguousarray(positions, np.float64) for positions in (original, decoded)
+        )
         around, facing = np.empty((len(original), 6)), np.empty(len(self._faces), np.uint8)
         sums = np.empty((len(self._views), 4))
-        _kernels.foresee(original, decoded, self._faces, self._edges, self._views, around, facing, sums)
+        _kernels.foresee(
+            original, decoded, self._faces, self._edges, self._views, around, facing, sums
+        )
         shades, outlines = sums[:, :2].ravel(), sums[:, 2:].ravel()
         squares = DIFFUSE**2 / 6.0 * shades + OUTLINES * outlines
         unlike = np.sqrt(squares) / sides

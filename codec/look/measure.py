@@ -36,16 +36,20 @@ from bsm.codec.look.pictures import (
 )
 from bsm.codec.threads import Crew, Result
 
-LOOK_VERSION = 2  # of the definition in `spec/look.md`; distances of different versions are not comparable
-UNLIKE, POWER = 0.0155, 4.0 / 3.0  # `Look.unlike` at distance 1, and its power: twice a step is about twice as far
+# Of the definition in `spec/look.md`; distances of different versions are not comparable.
+LOOK_VERSION = 2
+# `Look.unlike` at distance 1, and its power: twice a step is about twice as far.
+UNLIKE, POWER = 0.0155, 4.0 / 3.0
 GONE, GONE_POWER = 0.08, 2.0  # the same of `Look.gone`
 MOVING = 0.034  # `Look.unlike` of a frame of a moving picture at distance 1
 PAINTED = 0.044  # the same of pictures in colors, or under a checker
 ROOM = 0.1  # share of a distance that is left for rounding normals
-TURNED = 1.5  # degrees that normals may be turned, on average over the picture where that is most, at distance 1
+# Degrees that normals may be turned, on average over the picture where that is most, at distance 1.
+TURNED = 1.5
 MOST_TILES = 2.0**20  # how often a texture may be repeated
 LEAST_AREA = 1e-12  # of a face that faces some side, over the squared diagonal
-LEAST_THICKNESS = 2.0**-22  # of a face that can be seen, over the diagonal: rounding makes thinner ones
+# Of a face that can be seen, over the diagonal: rounding makes thinner ones.
+LEAST_THICKNESS = 2.0**-22
 _LARGEST = 1e150
 FAR = 1e3  # times as far away as most vertices: the stray vertex of a scan
 
@@ -88,7 +92,9 @@ class Look:
 class Gallery:
     """Pictures of an original; each is drawn when it is first looked at."""
 
-    def __init__(self, cameras: Sequence[Matrix], positions: Positions, faces: Faces, normals: Normals) -> None:
+    def __init__(
+        self, cameras: Sequence[Matrix], positions: Positions, faces: Faces, normals: Normals
+    ) -> None:
         self._cameras = cameras
         self._mesh: tuple[Positions, Faces, Normals] | None = (positions, faces, normals)
         self._pictures: dict[int, Picture] = {}
@@ -125,16 +131,22 @@ class LookMetric:
             raise MeshError("the mesh cannot be looked at: its faces have no area")
         low, high = box_around(used)
         with np.errstate(over="ignore", invalid="ignore"):
-            self._diagonal, lost = math.hypot(*(high - low)), np.abs(used.astype(np.float32) - used).max()
+            self._diagonal, lost = (
+                math.hypot(*(high - low)),
+                np.abs(used.astype(np.float32) - used).max(),
+            )
         if not self._diagonal > 0.0:
             raise MeshError("the mesh cannot be looked at: all vertices are at one place")
         if not self._diagonal < _LARGEST:
-            raise MeshError("the mesh cannot be looked at: its coordinates are too large to compute with; scale it")
+            raise MeshError(
+                "the mesh cannot be looked at: its coordinates are too large to compute with; scale it"
+            )
         # Not (low + high) / 2, whose sum may overflow.
         self._middle = low + (high - low) / 2
         # Files hold single precision. Where that is exact enough, the original is drawn as files have it, or rounding
         # alone would count as a difference.
-        self._kept = np.dtype(np.float32 if lost <= 1e-6 * self._diagonal else np.float64)  # as files have them
+        # As files have them.
+        self._kept = np.dtype(np.float32 if lost <= 1e-6 * self._diagonal else np.float64)
         positions = self._placed(mesh.positions)
         self._shape = Shape.of(positions, mesh.faces, around=around)
         self._size = Size.of(positions, faces, most_pixels)
@@ -142,13 +154,19 @@ class LookMetric:
         self._cameras = cameras(self._placed(used), self.pixels)
         self._sides = range(len(self._cameras))
         self._idle = [Canvas(self.pixels)]
-        self._pictures = Gallery(self._cameras, positions, self._shape.faces, self._shape.normals(positions))
+        self._pictures = Gallery(
+            self._cameras, positions, self._shape.faces, self._shape.normals(positions)
+        )
         # A mesh with area may still be invisible, if all of it is seen edge-on. Any number would then be a false
         # promise.
         if self._size.thickest < LEAST_THICKNESS or not self._shows_something():
             raise MeshError(f"the mesh cannot be looked at: its faces have no area{_outlier(used)}")
         own = own_normals(mesh)
-        self._own = None if own is None else (Gallery(self._cameras, positions, self._shape.faces, own), own)
+        self._own = (
+            None
+            if own is None
+            else (Gallery(self._cameras, positions, self._shape.faces, own), own)
+        )
         self._known: dict[tuple[int, ...], Look] = {}
         self._turned: dict[tuple[int, ...], tuple[float, float]] = {}
 
@@ -171,12 +189,18 @@ class LookMetric:
         """How these positions, shape (n, 3), look on the faces of the original; with its own normals, too."""
         positions = np.ascontiguousarray(positions, np.float64)
         if positions.shape != self._mesh.positions.shape:
-            raise MeshError(f"positions must have shape {self._mesh.positions.shape}, not {positions.shape}")
+            raise MeshError(
+                f"positions must have shape {self._mesh.positions.shape}, not {positions.shape}"
+            )
         if not np.isfinite(positions).all():
             raise MeshError("a position is not finite")
         bare = self.bare(positions)
         # Viewers may shade by normals of the file or by their own. The promise holds for both.
-        return bare if self._own is None else max(bare, self._dressed(positions), key=lambda look: look.distance)
+        return (
+            bare
+            if self._own is None
+            else max(bare, self._dressed(positions), key=lambda look: look.distance)
+        )
 
     def distance(self, positions: Positions) -> float:
         """Return the distance of `look` at `positions`, shape (n, 3)."""
@@ -185,13 +209,19 @@ class LookMetric:
     def with_room(self, positions: Positions) -> float:
         """Return the distance of positions, shape (n, 3); with own normals, some of it is left for rounding these."""
         bare = self.bare(positions).distance
-        return bare if self._own is None else max(bare, self._dressed(positions).distance / (1.0 - ROOM))
+        return (
+            bare
+            if self._own is None
+            else max(bare, self._dressed(positions).distance / (1.0 - ROOM))
+        )
 
     # Three of six sides take half of the time, and see every face of a flat mesh. Searches ask this first.
     def glance(self, positions: Positions) -> float:
         """About the distance of positions, shape (n, 3), as three sides show it."""
         placed, sides = self._placed(positions), self._sides[::2]
-        return self._seen(self._pictures, placed, self._shape.faces, self._shape.normals(placed), sides).distance
+        return self._seen(
+            self._pictures, placed, self._shape.faces, self._shape.normals(placed), sides
+        ).distance
 
     def bare(self, positions: Positions) -> Look:
         """How positions, shape (n, 3), look with normals that follow from them."""
@@ -200,7 +230,12 @@ class LookMetric:
             placed, known = self._placed(positions), self._shape
             # Vertices that have come to one place are one.
             # Rounding can make vertices meet. Viewers then shade across, and so must these pictures.
-            return self._seen(self._pictures, placed, known.faces, Shape.of(placed, known.faces, known).normals(placed))
+            return self._seen(
+                self._pictures,
+                placed,
+                known.faces,
+                Shape.of(placed, known.faces, known).normals(placed),
+            )
 
         return self._once(seen, positions)
 
@@ -227,8 +262,13 @@ class LookMetric:
 
         # From the chord: two normals of no length are equal.
         # Dot products of nearly equal vectors lose half of their digits; chords do not.
-        cosines = (1.0 - np.square((normals - own).reshape(-1, 3).astype(np.float64)).sum(axis=1) / 2.0).clip(-1.0, 1.0)
-        turned, placed = np.degrees(np.arccos(cosines)).reshape(-1, 3).mean(axis=1), self._placed(positions)
+        cosines = (
+            1.0 - np.square((normals - own).reshape(-1, 3).astype(np.float64)).sum(axis=1) / 2.0
+        ).clip(-1.0, 1.0)
+        turned, placed = (
+            np.degrees(np.arccos(cosines)).reshape(-1, 3).mean(axis=1),
+            self._placed(positions),
+        )
         key = key_of(positions, normals)
         # By the bytes of the arrays: a search comes back to the same candidate by several ways.
         if key not in self._turned:
@@ -274,8 +314,12 @@ class LookMetric:
         for mesh in (self._mesh, other):
             placed = self._placed(mesh.positions)
             normals = np.tile(face_normals(placed, mesh.faces).astype(np.float32), 3)
-            pictures.append(self._drawn(placed, np.ascontiguousarray(mesh.faces, np.int32), normals))
-        return summed(np.array([difference(*pair) for pair in zip(*pictures, strict=True)])).distance
+            pictures.append(
+                self._drawn(placed, np.ascontiguousarray(mesh.faces, np.int32), normals)
+            )
+        return summed(
+            np.array([difference(*pair) for pair in zip(*pictures, strict=True)])
+        ).distance
 
     def view(self, other: TriangleMesh) -> Matrix:
         """The axes of the camera that sees both meshes differ most, as rows: right, up, towards the camera."""
@@ -283,7 +327,13 @@ class LookMetric:
         shape = Shape.of(placed, other.faces)
         drawn = self._drawn(placed, shape.faces, shape.normals(placed))
         originals = self._each(self._pictures.picture, self._sides)
-        return axes(TOWARDS[max(self._sides, key=lambda side: float(difference(originals[side], drawn[side])[0]))])
+        return axes(
+            TOWARDS[
+                max(
+                    self._sides, key=lambda side: float(difference(originals[side], drawn[side])[0])
+                )
+            ]
+        )
 
     def _placed(self, positions: Positions) -> Positions:
         with np.errstate(over="ignore"):
@@ -312,7 +362,12 @@ class LookMetric:
         return self._each(drawn.picture, self._sides)
 
     def _seen(
-        self, pictures: Gallery, placed: Positions, faces: Faces, normals: Normals, sides: Sequence[int] | None = None
+        self,
+        pictures: Gallery,
+        placed: Positions,
+        faces: Faces,
+        normals: Normals,
+        sides: Sequence[int] | None = None,
     ) -> Look:
         end_phase(len(placed))
 
@@ -326,7 +381,9 @@ class LookMetric:
 class AttributeLook:
     """Pictures of an original under a checker, or in colors of corners, shape (m, 3 c): `spec/look.md`, L 7, L 8."""
 
-    def __init__(self, mesh: TriangleMesh, semantic: Semantic, values: Matrix, *, threads: int | None = None) -> None:
+    def __init__(
+        self, mesh: TriangleMesh, semantic: Semantic, values: Matrix, *, threads: int | None = None
+    ) -> None:
         # Colors and checkers are smooth or coarse. Fewer pixels show their differences.
         self._metric = LookMetric(mesh.bare, threads=threads, most_pixels=LEAST_PIXELS)
         self._faces, self._semantic = self._metric._shape.faces, semantic
@@ -343,24 +400,41 @@ class AttributeLook:
 
     def compare(self, other: TriangleMesh) -> float | None:
         """How far another mesh looks, of whatever faces; None: it has no such attribute."""
-        values, faces = look_values(other, self._semantic), np.ascontiguousarray(other.faces, np.int32)
+        values, faces = (
+            look_values(other, self._semantic),
+            np.ascontiguousarray(other.faces, np.int32),
+        )
         if values is None:
             return None
-        return self._far(self._drawn(self._painting(values, other.positions, faces), other.positions, faces, values))
+        return self._far(
+            self._drawn(
+                self._painting(values, other.positions, faces), other.positions, faces, values
+            )
+        )
 
     def _painting(self, values: Matrix, positions: Positions, faces: Faces) -> Paint:
         if self._semantic == "color":
             return Canvas.in_colors
-        return partial(Canvas.checkered, steepness=checker_steepness(values, self._metric._placed(positions), faces))
+        return partial(
+            Canvas.checkered,
+            steepness=checker_steepness(values, self._metric._placed(positions), faces),
+        )
 
     def _far(self, drawn: Sequence[list[Picture]]) -> float:
         pairs = (zip(*both, strict=True) for both in zip(self._pictures, drawn, strict=True))
         return math.pow(
-            summed(np.array([difference(*pair) for side in pairs for pair in side])).unlike / PAINTED, POWER
+            summed(np.array([difference(*pair) for side in pairs for pair in side])).unlike
+            / PAINTED,
+            POWER,
         )
 
-    def _drawn(self, paint: Paint, positions: Positions, faces: Faces, values: Matrix) -> list[list[Picture]]:
-        metric, placed = self._metric, self._metric._placed(np.ascontiguousarray(positions, np.float64))
+    def _drawn(
+        self, paint: Paint, positions: Positions, faces: Faces, values: Matrix
+    ) -> list[list[Picture]]:
+        metric, placed = (
+            self._metric,
+            self._metric._placed(np.ascontiguousarray(positions, np.float64)),
+        )
         normals = Shape.of(placed, faces).normals(placed)
 
         def drawn(canvas: Canvas, side: int) -> list[Picture]:
@@ -407,7 +481,9 @@ def own_normals(mesh: TriangleMesh) -> Normals | None:
 
 def shades(attribute: Attribute) -> bool:
     """Whether an attribute is normals of corners."""
-    return attribute.semantic == "normal" and attribute.components == 3 and attribute.domain != "face"
+    return (
+        attribute.semantic == "normal" and attribute.components == 3 and attribute.domain != "face"
+    )
 
 
 def of_length_1(normals: npt.NDArray[Any]) -> Normals:
@@ -420,7 +496,11 @@ def of_length_1(normals: npt.NDArray[Any]) -> Normals:
 
 def look_values(mesh: TriangleMesh, semantic: Semantic) -> Matrix | None:
     """The arguments of `AttributeLook` for the first attribute that means colors, or texture coordinates, or None."""
-    found = (attribute for attribute in mesh.attributes if attribute.semantic == semantic and has_look(attribute))
+    found = (
+        attribute
+        for attribute in mesh.attributes
+        if attribute.semantic == semantic and has_look(attribute)
+    )
     return next((painted(semantic, at_corners(attribute, mesh.faces)) for attribute in found), None)
 
 
@@ -428,8 +508,14 @@ def has_look(attribute: Attribute) -> bool:
     """Whether an attribute is seen in pictures: texture coordinates of a plane; and colors, if floats from 0 to 1."""
     kind = attribute.values.dtype.kind
     if attribute.semantic == "color":
-        return kind == "u" or (kind == "f" and bool(np.abs(attribute.values - 0.5).max(initial=0.0) <= 0.5))
-    plane = attribute.semantic == "texcoord" and attribute.components == 2 and attribute.domain != "face"
+        return kind == "u" or (
+            kind == "f" and bool(np.abs(attribute.values - 0.5).max(initial=0.0) <= 0.5)
+        )
+    plane = (
+        attribute.semantic == "texcoord"
+        and attribute.components == 2
+        and attribute.domain != "face"
+    )
     return plane and kind == "f" and float(np.abs(attribute.values).max(initial=0.0)) <= MOST_TILES
 
 

@@ -13,11 +13,13 @@ from bsm.codec.arrays import Faces, Matrix, Positions, end_phase
 from bsm.codec.geometry.graph import Lists, vertex_faces
 from bsm.codec.geometry.welding import degenerate, group_rows
 
-Picture = npt.NDArray[np.float32]  # shades, 0 (black) to 1 (white, the background); first row on top
+# Shades, 0 (black) to 1 (white, the background); first row on top.
+Picture = npt.NDArray[np.float32]
 Normals = npt.NDArray[np.float32]  # of the corners of faces, shape (m, 9)
 
 # Normals across sharper edges would draw gradients on flat faces.
-CREASE = math.cos(math.radians(40.0))  # cosine of the angle between faces from which on shading is not smooth
+# Cosine of the angle between faces from which on shading is not smooth.
+CREASE = math.cos(math.radians(40.0))
 _HALF_CREASE = math.cos(math.radians(19.9))
 # The hub of a fan may have a million faces. Comparing each with each would take hours.
 MOST_AROUND = 128  # faces around a vertex, above which its corners are shaded as their faces are
@@ -32,7 +34,8 @@ SAMPLES = 4  # samples along each side of a pixel, which is their mean
 LIGHT = (0.35, 0.5, 0.79)  # where the light is: right, up, towards the camera
 # Without it, the last bit of a coordinate decides whether a sample on an edge is covered, and equal meshes look
 # different.
-ASIDE = (2.0**-12, 2.0**-11.5, 0.0)  # samples, by which edges of symmetric shapes miss the centers of samples
+# Samples, by which edges of symmetric shapes miss the centers of samples.
+ASIDE = (2.0**-12, 2.0**-11.5, 0.0)
 AIR = 1.03  # the side of the picture over the longer side of what it shows
 LEAST_PIXELS, MOST_PIXELS = 512, 2048  # samples along the side of a picture
 FEWEST_PIXELS = 16  # if many faces cover each other and `LEAST_PIXELS` would take too long
@@ -41,7 +44,8 @@ EDGE_PIXELS = 2.0  # samples along a mean edge, where `MOST_PIXELS` and `MOST_CO
 MOST_COVERED, COVERED_BY_FACE, ROW = 5 * LEAST_PIXELS**2, 16, 4
 """Samples that faces may cover in a picture, each as often as it is covered, and how many more for each face; and
 samples that take as long to cover as a row of a face takes."""
-CHECKS, DARK, TEXELS = 8, 0.35, 128  # of a checker: squares a side, how bright dark ones are, texels of their sides
+# Of a checker: squares a side, how bright dark ones are, texels of their sides.
+CHECKS, DARK, TEXELS = 8, 0.35, 128
 # Eyes see less where the surface is busy (masking): squared differences are divided by this plus the local variance.
 STEADY = 0.02  # variance of shades that hides half of a squared difference
 _GRID = 2.0**24
@@ -60,7 +64,13 @@ class Shape:
     around: Lists  # without faces that have two corners at one place
 
     @classmethod
-    def of(cls, positions: Positions, faces: Faces, known: Shape | None = None, around: Lists | None = None) -> Shape:
+    def of(
+        cls,
+        positions: Positions,
+        faces: Faces,
+        known: Shape | None = None,
+        around: Lists | None = None,
+    ) -> Shape:
         """The shape of positions, shape (n, 3), within a box of diagonal 1: a known one of these faces if it is so.
 
         `around`, if it is known already, lists the faces around each vertex.
@@ -88,7 +98,9 @@ class Shape:
         count = len(self.faces)
         normals = np.zeros((count, 9), np.float32)
         shading = CREASE, _HALF_CREASE, MOST_AROUND
-        _kernels.shown_normals(positions, self.faces, self.joined, self.around, shading, np.empty((count, 4)), normals)
+        _kernels.shown_normals(
+            positions, self.faces, self.joined, self.around, shading, np.empty((count, 4)), normals
+        )
         return normals
 
 
@@ -98,15 +110,28 @@ class Canvas:
     def __init__(self, samples: int) -> None:
         # Kept from picture to picture. Clearing only what was drawn is faster than memory from the system.
         self.samples, self._depth = (np.empty((samples, samples), np.float32) for _ in "12")
-        self.owner, self._drawn = np.empty((0, samples), np.int32), np.array([0, samples, 0, samples], np.int32)
+        self.owner, self._drawn = (
+            np.empty((0, samples), np.int32),
+            np.array([0, samples, 0, samples], np.int32),
+        )
         self._tiles = np.empty((-(-samples // _TILE),) * 2, np.float32)
         self._placed: Positions = np.empty((0, 3))
 
-    def draw(self, positions: Positions, faces: Faces, normals: Normals, camera: Matrix, owned: bool = True) -> Picture:
+    def draw(
+        self,
+        positions: Positions,
+        faces: Faces,
+        normals: Normals,
+        camera: Matrix,
+        owned: bool = True,
+    ) -> Picture:
         """Draw a mesh, lit alike on both sides; if `owned`, `owner` is the face that each sample shows, or -1."""
         placed = np.empty(positions.shape)
         self.owner = np.empty(self.samples.shape if owned else (0, 0), np.int32)
-        room, on = np.empty(len(faces), np.int32), (self._depth, self._tiles, self.samples, self.owner, self._drawn)
+        room, on = (
+            np.empty(len(faces), np.int32),
+            (self._depth, self._tiles, self.samples, self.owner, self._drawn),
+        )
         _kernels.draw_shaded(positions, faces, normals, camera, placed, room, on)
         if owned:
             self._placed = placed  # colors are painted from the owners and these places
@@ -116,14 +141,21 @@ class Canvas:
         """Return the last picture in red, in green and in blue, given those of corners, shape (m, 9)."""
         painted = np.empty((3, *self.samples.shape), np.float32)
         _kernels.paint_colors(
-            self.owner, self._placed, faces, colors, self.samples, painted.reshape(-1, len(self.owner))
+            self.owner,
+            self._placed,
+            faces,
+            colors,
+            self.samples,
+            painted.reshape(-1, len(self.owner)),
         )
         return [averaged(samples) for samples in painted]
 
     def checkered(self, faces: Faces, places: Matrix, steepness: Matrix) -> list[Picture]:
         """Return the last picture under a checker at places of corners, shape (m, 6), with its steepness on faces."""
         samples = self.samples.copy()
-        _kernels.paint_checker(self.owner, self._placed, faces, places * CHECKS, steepness, DARK, samples)
+        _kernels.paint_checker(
+            self.owner, self._placed, faces, places * CHECKS, steepness, DARK, samples
+        )
         return [averaged(samples)]
 
 
@@ -176,17 +208,22 @@ def _side_of(bounds: Matrix) -> float:
 
 def sides_of(positions: Positions) -> Matrix:
     """Return the sides of the pictures of positions, shape (n, 3), in their unit."""
-    return np.array([_side_of(bounds) for bounds in _bounds_along(positions, _FLAT_AXES).reshape(-1, 2, 2)])
+    return np.array(
+        [_side_of(bounds) for bounds in _bounds_along(positions, _FLAT_AXES).reshape(-1, 2, 2)]
+    )
 
 
-def cameras(positions: Positions, pixels: int, sides: tuple[tuple[int, int, int], ...] = TOWARDS) -> list[Matrix]:
+def cameras(
+    positions: Positions, pixels: int, sides: tuple[tuple[int, int, int], ...] = TOWARDS
+) -> list[Matrix]:
     """Return the arguments of `draw_shaded` for sides, shape (15,), so that positions, shape (n, 3), fill pictures."""
     rows = [_rolled_axes(towards) for towards in sides]
     extents = _bounds_along(positions, np.concatenate(rows)).reshape(-1, 3, 2)
     arguments = []
     for towards, rotation, bounds in zip(sides, rows, extents, strict=True):
         side, (low, high) = _side_of(bounds), bounds.T
-        scale = np.array([pixels / side, -pixels / side, 2.0**22])  # as many depths in the box's diagonal
+        # As many depths in the box's diagonal.
+        scale = np.array([pixels / side, -pixels / side, 2.0**22])
         offset = np.array([pixels / 2, pixels / 2, 0.0]) + ASIDE - scale * (low + high) / 2
         to_picture = np.column_stack([rotation * scale[:, None], offset])
         arguments.append(np.concatenate([to_picture.ravel(), light_of(towards)]))
@@ -204,7 +241,9 @@ class Size:
     def of(cls, positions: Positions, faces: Faces, most_pixels: int = MOST_PIXELS) -> Size:
         """Enough pixels that the mean edge has `EDGE_PIXELS`, but no more than `MOST_COVERED` ones that are covered."""
         lengths, areas, bounds = np.empty((3, len(faces))), np.empty(len(faces)), np.empty((3, 2))
-        _kernels.measure_faces(positions, np.ascontiguousarray(faces, np.int32), lengths, areas, bounds)
+        _kernels.measure_faces(
+            positions, np.ascontiguousarray(faces, np.int32), lengths, areas, bounds
+        )
         extent = AIR * float((bounds[:, 1] - bounds[:, 0]).max())
         # Detail as fine as the mesh must be seen, so dense meshes get larger pictures, as on a screen that is zoomed
         # in.
@@ -229,17 +268,24 @@ def checker_steepness(places: Matrix, positions: Positions, faces: Faces) -> Mat
     """One over the part of a checker's square that its edges take on each face, shape (m,); 0: it is gray there."""
     first, second = places[:, 2:4] - places[:, :2], places[:, 4:] - places[:, :2]
     # A checker finer than a pixel would flicker. It fades to gray where its squares get too small.
-    texels = np.abs(first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0]) * (CHECKS * TEXELS) ** 2
+    texels = (
+        np.abs(first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0]) * (CHECKS * TEXELS) ** 2
+    )
     a, b, c = (positions[corner] for corner in faces.T)
     shown = np.sqrt(np.square(np.cross(b - a, c - a)).sum(axis=1)) * LEAST_PIXELS**2
     ratio = np.divide(texels, shown, out=np.zeros(len(faces)), where=shown > 0.0)
-    steepness: Matrix = 2.0 * np.floor(TEXELS * 0.5 ** np.rint(0.5 * np.log2(np.maximum(ratio, 1.0))))
+    steepness: Matrix = 2.0 * np.floor(
+        TEXELS * 0.5 ** np.rint(0.5 * np.log2(np.maximum(ratio, 1.0)))
+    )
     return steepness
 
 
 def difference(first: Picture, second: Picture) -> Matrix:
     """Return how unlike two pictures are, and the largest difference of blurred pixels; shape (2,)."""
-    sums, scratch = np.empty(2), np.empty((_SCRATCH_ROWS, first.shape[1] + _SCRATCH_COLUMNS), np.float32)
+    sums, scratch = (
+        np.empty(2),
+        np.empty((_SCRATCH_ROWS, first.shape[1] + _SCRATCH_COLUMNS), np.float32),
+    )
     _kernels.contrast(first, second, _BLUR, STEADY, scratch, sums)
     sums[0] = math.sqrt(sums[0] / first.size)
     return sums

@@ -24,7 +24,8 @@ from bsm.codec.static.units import single
 # A finer step costs bytes in proportion to its logarithm, and another attempt costs time.
 SLACK = 0.2  # part of a bound that may be left, in logarithms
 LEAST = 1e-6  # of a bound, an error that counts as none; and of the first step, the finest one
-FIRST_STEP, FIRST_STEP_RMS = 0.7, 2.0  # that of the first attempt, in bounds of every value and on average
+# That of the first attempt, in bounds of every value and on average.
+FIRST_STEP, FIRST_STEP_RMS = 0.7, 2.0
 OUTLIER = 10.0  # how many times as far as all are on average a single value may be off
 # A value at a half may be rounded up here and down there. Kept away from it, integers are equal everywhere.
 MARGIN = 1e-6  # by which integers keep away from halves, which processors may round either way
@@ -43,7 +44,9 @@ def changed(first: Values, change: Matrix) -> Values:
         if first.dtype.kind == "f":
             values = values.astype(first.dtype)
             if not np.isfinite(values).all():
-                raise NumericError("values of an attribute that moves are beyond the range of their kind")
+                raise NumericError(
+                    "values of an attribute that moves are beyond the range of their kind"
+                )
             return values
     kind = np.iinfo(first.dtype)
     # Clipped, since a difference may lead out of the range of bytes.
@@ -77,7 +80,12 @@ class Bound:
         if way == "exact":
             bound = 0.0
         elif way == "bits":
-            unit = not is_integer and self.attribute.semantic == "color" and low.min() >= 0.0 and high.max() <= 1.0
+            unit = (
+                not is_integer
+                and self.attribute.semantic == "color"
+                and low.min() >= 0.0
+                and high.max() <= 1.0
+            )
             step = (1.0 if unit else extent) / (2 ** int(amount) - 1)
             bound = float(-(-step // 1) // 2) if is_integer else step / 2.0
         else:
@@ -109,7 +117,9 @@ class Bound:
         if self._is_rms:
             apart = changed(first, change) - wide
             # A mean forgives one value that is completely wrong, and eyes do not.
-            return max(math.sqrt(float(np.square(apart).mean())), float(np.abs(apart).max()) / OUTLIER)
+            return max(
+                math.sqrt(float(np.square(apart).mean())), float(np.abs(apart).max()) / OUTLIER
+            )
         now = first.astype(np.float64) + change
         if values.dtype.kind == "f":
             now = now.astype(values.dtype).astype(np.float64)
@@ -150,7 +160,9 @@ class Expected:
 class MovingAttributeEncoder:
     """Encodes one attribute in the GOPs of a run."""
 
-    def __init__(self, number: int, carried: PreparedAttribute, first_values: Values, bound: Bound) -> None:
+    def __init__(
+        self, number: int, carried: PreparedAttribute, first_values: Values, bound: Bound
+    ) -> None:
         self.number = number
         self.name, self.bound = carried.declaration.name, bound
         self.first: Values = carried.values
@@ -175,7 +187,9 @@ class MovingAttributeEncoder:
 
     def expected(self, values: Values) -> Expected:
         """Return the values that a decoder must have for a frame of these values, shape (n, d)."""
-        return Expected(self.number, self.first if self.bound.amount is None else values, self.bound)
+        return Expected(
+            self.number, self.first if self.bound.amount is None else values, self.bound
+        )
 
     def begin(self, positions: GopEncoder, number: int) -> None:
         """Begin a run, in which this attribute has the track of this number; `positions` has its dictionaries."""
@@ -189,7 +203,10 @@ class MovingAttributeEncoder:
             all_values = np.concatenate([self._given[None], values])
             self.bound = self.bound.over(all_values)
         ends = np.cumsum([body.frames for body in bodies])
-        return [self._field(body, values[end - body.frames : end]) for body, end in zip(bodies, ends, strict=True)]
+        return [
+            self._field(body, values[end - body.frames : end])
+            for body, end in zip(bodies, ends, strict=True)
+        ]
 
     def _field(self, body: GopBody, values: Values) -> GopField:
         assert self._encoder is not None
@@ -211,7 +228,10 @@ class MovingAttributeEncoder:
             twin = encoder.copy()
             twin.step = single(step)
             field, changes = self._attempt(twin, body, values)
-            off = max(self.bound.off(frame, self.first, change) for frame, change in zip(values, changes, strict=True))
+            off = max(
+                self.bound.off(frame, self.first, change)
+                for frame, change in zip(values, changes, strict=True)
+            )
             # The widest step that holds is kept, whatever order they are tried in.
             if off <= reach and (best is None or twin.step > best[0].step):
                 best = twin, field, changed(self.first, changes[-1])
@@ -228,7 +248,9 @@ class MovingAttributeEncoder:
     def _refusal(self, why: str) -> TargetError:
         return TargetError(f"{self.name!r} moves, and cannot be kept {self.bound}: {why}")
 
-    def _attempt(self, encoder: GopEncoder, body: GopBody, values: Values) -> tuple[GopField, list[Matrix]]:
+    def _attempt(
+        self, encoder: GopEncoder, body: GopBody, values: Values
+    ) -> tuple[GopField, list[Matrix]]:
         """A field, and its decoded form: the changes of each frame, shape (n, d)."""
         changes = values.astype(np.float64) - self.first
         try:
@@ -241,17 +263,22 @@ class MovingAttributeEncoder:
             distinct, places = distinct_frames(body.places)
             frames, weights = changes[distinct], np.sqrt(np.bincount(places))
             motion = Decomposition(frames).motion(encoder.step)
-            learnt = encoder.encode_learnt(motion.fields, motion.shapes, weights, body.method, silent)
+            learnt = encoder.encode_learnt(
+                motion.fields, motion.shapes, weights, body.method, silent
+            )
         except OptionError as error:
             raise self._refusal(f"{error}") from error
         return learnt.field, list(learnt.frames(body.places))
 
 
 def with_fields(
-    bodies: Sequence[GopBody], coders: Sequence[MovingAttributeEncoder], values: Mapping[str, Values]
+    bodies: Sequence[GopBody],
+    coders: Sequence[MovingAttributeEncoder],
+    values: Mapping[str, Values],
 ) -> tuple[GopBody, ...]:
     """GOPs of positions, and now of attributes, too: `values` are of all frames, shape (T, k, c)."""
     each = [coder.fields(bodies, values[coder.name]) for coder in coders]
     return tuple(
-        replace(body, fields=(*body.fields, *(fields[number] for fields in each))) for number, body in enumerate(bodies)
+        replace(body, fields=(*body.fields, *(fields[number] for fields in each)))
+        for number, body in enumerate(bodies)
     )

@@ -130,7 +130,9 @@ class SequenceEncoder:
         self.samples = 0
         self._faces = faces
         self._count = frames
-        if not isinstance(attributes, Sequence) or not all(isinstance(a, Attribute) for a in attributes):
+        if not isinstance(attributes, Sequence) or not all(
+            isinstance(a, Attribute) for a in attributes
+        ):
             raise ArgumentError("the attributes of a sequence must be a list of Attribute")
         self._attributes = tuple(attributes)
         self._metadata = checked_metadata(metadata)
@@ -201,16 +203,22 @@ class SequenceEncoder:
             deque(run.frames, maxlen=0)
         finest = finest_step([_positions(frame) for frame in given_frames], self.options)
         first, rise = self.options.step, RISES.get(target.kind, 1.0)
-        best = search_step(lambda step: self.attempt(given_frames, step, progress), target, first, finest, rise)
+        best = search_step(
+            lambda step: self.attempt(given_frames, step, progress), target, first, finest, rise
+        )
         self._verifier, self._drawn = best.verifier, best.drawn
         return best
 
-    def attempt(self, frames: Sequence[Frame], step: float, progress: Progress | None = None) -> SequenceAttempt:
+    def attempt(
+        self, frames: Sequence[Frame], step: float, progress: Progress | None = None
+    ) -> SequenceAttempt:
         """Encode frames, each of shape (n, 3), or meshes, with a given step, and compare the decoded ones."""
         pairs: list[Measured] = []
         chunks = tuple(self._chunks(frames, replace(self.options, step=step), progress, pairs))
         if len(self.run_starts) > 1:
-            raise MeshError(f"joined vertices part at frame {self.run_starts[1]}: a target is for frames of one run")
+            raise MeshError(
+                f"joined vertices part at frame {self.run_starts[1]}: a target is for frames of one run"
+            )
         original, decoded = (np.array([frame[side] for frame in pairs]) for side in (0, 1))
         compared = compare_sequences(original, decoded, pairs[0][2])
         return SequenceAttempt(chunks, self.samples, compared, self._verifier, self._drawn)
@@ -228,9 +236,14 @@ class SequenceEncoder:
         writer = SectionWriter()
         number = 0
         self.run_starts, self.samples, self._checksum, self._drawn = [], 0, 0, 0.0
-        splitter = RunSplitter(frames, self._faces, allowed=options.runs, attributes=self._attributes)
+        splitter = RunSplitter(
+            frames, self._faces, allowed=options.runs, attributes=self._attributes
+        )
         runs = joined_runs(
-            self._as_sent(splitter), options.together, keep_order=options.keep_order, allowed=options.runs
+            self._as_sent(splitter),
+            options.together,
+            keep_order=options.keep_order,
+            allowed=options.runs,
         )
         for index, run in enumerate(runs):
             if not index:
@@ -251,7 +264,10 @@ class SequenceEncoder:
         # The header has announced them already, and decoders wait for them.
         if self._count and number != self._count:
             raise OptionError(f"{self._count} frames were announced and {number} came")
-        changes = (f"{name} changes at frame {first}, but stays as before" for name, first in splitter.changed.items())
+        changes = (
+            f"{name} changes at frame {first}, but stays as before"
+            for name, first in splitter.changed.items()
+        )
         self.losses = (*self.losses, *changes)
         self.notes = tuple(dict.fromkeys((*self.notes, *self.losses)))
         end = verifier.take(writer.end(self._checksum), last=True)
@@ -262,13 +278,20 @@ class SequenceEncoder:
     def _as_sent(self, splitter: RunSplitter) -> Iterator[Run]:
         """Runs with the attributes that each is sent with."""
         for run in splitter.runs():
-            attributes = tuple(attribute for attribute in run.mesh.attributes if attribute.semantic != "normal")
+            attributes = tuple(
+                attribute for attribute in run.mesh.attributes if attribute.semantic != "normal"
+            )
             # The caller's attributes belong to the first run; later meshes bring their own.
             current = attributes if run.first or not self._attributes else self._attributes
             yield replace(run, mesh=replace(run.mesh, attributes=current))
 
     def _run(
-        self, run: JoinedRun, index: int, meshes: Meshes, options: SequenceOptions, progress: Progress
+        self,
+        run: JoinedRun,
+        index: int,
+        meshes: Meshes,
+        options: SequenceOptions,
+        progress: Progress,
     ) -> Iterator[packets.Packet]:
         """The packets of a run; `_done` grows by its frames."""
         self.run_starts.append(run.first)
@@ -291,7 +314,16 @@ class SequenceEncoder:
         else:
             mesh = replace(earlier, gops=encoder.again(group, earlier.gops))
             head, again = mesh.gops.first_frame.header, (index, earlier.run)
-            begun = iter([Header(vertices=head.vertices, faces=head.faces, sequence=(self._count, longest), run=again)])
+            begun = iter(
+                [
+                    Header(
+                        vertices=head.vertices,
+                        faces=head.faces,
+                        sequence=(self._count, longest),
+                        run=again,
+                    )
+                ]
+            )
         self._verifier.expect_mesh(original, mesh.resting)
         yield from begun
         for track, coder in enumerate(mesh.coders, 1):
@@ -309,11 +341,15 @@ class SequenceEncoder:
                     if (group.moving[name] != values).any():
                         # The first group stood still, so the values were sent exactly. Now it is too late to send them
                         # otherwise.
-                        raise OptionError(f"{name!r} moves, and floats that do cannot be exact; ask for a bound")
+                        raise OptionError(
+                            f"{name!r} moves, and floats that do cannot be exact; ask for a bound"
+                        )
         self.notes = tuple(dict.fromkeys((*self.notes, *(coder.note for coder in mesh.coders))))
         meshes.keep(mesh, run)
 
-    def _coded(self, run: JoinedRun, index: int, mesh: OpenedMesh, group: Group) -> Iterator[packets.Gop]:
+    def _coded(
+        self, run: JoinedRun, index: int, mesh: OpenedMesh, group: Group
+    ) -> Iterator[packets.Gop]:
         """The GOPs of a group of frames, which the verifier then expects."""
         gops, coders, units = mesh.gops, mesh.coders, mesh.prepared.units
         self._drawn = max(self._drawn, gops.worst_look)
@@ -328,12 +364,21 @@ class SequenceEncoder:
                 raise OptionError(f"{self._count} frames were announced and more came")
             # Decoders grant memory by the bytes that have arrived, so the encoder keeps the same account.
             gops.first_frame.costs.received += body.size
-            yield packets.Gop(run.first + self._done, write_gop_body(body, index, [coder.number for coder in coders]))
+            yield packets.Gop(
+                run.first + self._done,
+                write_gop_body(body, index, [coder.number for coder in coders]),
+            )
             self._done += body.frames
             self.samples += body.frames * len(self.vertex_order)
 
     def _carried(
-        self, run: JoinedRun, prepared: Prepared, options: SequenceOptions, group: Group, *, more: bool
+        self,
+        run: JoinedRun,
+        prepared: Prepared,
+        options: SequenceOptions,
+        group: Group,
+        *,
+        more: bool,
     ) -> tuple[tuple[PreparedAttribute, ...], tuple[MovingAttributeEncoder, ...]]:
         """Return the attributes of a run with its own mesh, and encoders of those that move, or may if `more` comes."""
         mesh, chosen = run.mesh, dict(options.attributes)
@@ -342,7 +387,8 @@ class SequenceEncoder:
         # nothing while it rests.
         may = move | (set(group.moving) if more else set())
         bounds = {
-            a.name: Bound(quality, a) for a, quality in qualities(mesh.attributes, chosen, "balanced", moving=may)
+            a.name: Bound(quality, a)
+            for a, quality in qualities(mesh.attributes, chosen, "balanced", moving=may)
         }
         pairs = []
         for attribute, quality in qualities(mesh.attributes, chosen, "balanced", moving=move):
@@ -353,17 +399,24 @@ class SequenceEncoder:
                 raise OptionError(
                     f"{attribute.name!r}: normals of a sequence cannot be recomputed; ask for 2deg or none"
                 )
-            elif attribute.name not in may or (quality.way == "exact" and attribute.values.dtype.kind == "f"):
+            elif attribute.name not in may or (
+                quality.way == "exact" and attribute.values.dtype.kind == "f"
+            ):
                 del bounds[attribute.name]
             pairs.append((attribute, quality))
         carried = carry(run.joined.coding, prepared.mesh.faces, pairs, 0)
         carried = tuple(
-            replace(a, declaration=replace(a.declaration, moves=1)) if a.declaration.name in bounds else a
+            replace(a, declaration=replace(a.declaration, moves=1))
+            if a.declaration.name in bounds
+            else a
             for a in carried
         )
         coders = tuple(
             MovingAttributeEncoder(
-                number, attribute, group.moving[attribute.declaration.name][0], bounds[attribute.declaration.name]
+                number,
+                attribute,
+                group.moving[attribute.declaration.name][0],
+                bounds[attribute.declaration.name],
             )
             for number, attribute in enumerate(carried)
             if attribute.declaration.moves
@@ -371,15 +424,25 @@ class SequenceEncoder:
         return carried, coders
 
     def _opened(
-        self, run: JoinedRun, index: int, prepared: Prepared, first: FirstFrame, carried: tuple[PreparedAttribute, ...]
+        self,
+        run: JoinedRun,
+        index: int,
+        prepared: Prepared,
+        first: FirstFrame,
+        carried: tuple[PreparedAttribute, ...],
     ) -> Iterator[packets.Packet]:
         """Return the sections before the GOPs of a run with its own mesh."""
         notes = (attribute.note for attribute in carried if not attribute.declaration.moves)
-        order = (f"the order of vertices and faces takes {len(turn.data)} of the bytes" for turn in prepared.order)
+        order = (
+            f"the order of vertices and faces takes {len(turn.data)} of the bytes"
+            for turn in prepared.order
+        )
         self.losses = tuple(dict.fromkeys((*self.losses, *run.joined.losses)))
         self.notes = tuple(dict.fromkeys((*self.notes, *run.joined.notes, *notes, *order)))
         body = (*prepared.before_blocks, *(block.packet for block in first.blocks))
-        draft = Draft(replace(first.header, run=(index,) if index else ()), body, run.mesh.positions)
+        draft = Draft(
+            replace(first.header, run=(index,) if index else ()), body, run.mesh.positions
+        )
         draft = with_attributes(draft, carried, {} if index else self._metadata)
         yield from (draft.header, *draft.body)
 
@@ -400,8 +463,10 @@ class Meshes:
 
     def __init__(self) -> None:
         self.costs = Kept()
-        self._opened: dict[int, OpenedMesh] = {}  # by the run that brought them, the one used last at the end
-        self._known: dict[bytes, tuple[int, TriangleMesh]] = {}  # the run that brought a mesh, and that, by its faces
+        # By the run that brought them, the one used last at the end.
+        self._opened: dict[int, OpenedMesh] = {}
+        # The run that brought a mesh, and that, by its faces.
+        self._known: dict[bytes, tuple[int, TriangleMesh]] = {}
 
     def find(self, begun: JoinedRun) -> OpenedMesh | None:
         """Return the kept mesh of a run that begins; None: the mesh must be sent."""
@@ -435,7 +500,11 @@ def _digest(run: JoinedRun) -> bytes:
     """Return a digest that runs of the same faces, joins and resting attributes share."""
     mesh, moving = run.mesh, {attribute.name for attribute in run.moving}
     # A digest, since comparing a mesh with all earlier ones would need all their faces.
-    digest = sha256(len(mesh.positions).to_bytes(8, "little") + mesh.faces.tobytes() + run.joined.index.tobytes())
+    digest = sha256(
+        len(mesh.positions).to_bytes(8, "little")
+        + mesh.faces.tobytes()
+        + run.joined.index.tobytes()
+    )
     for attribute in mesh.attributes:
         digest.update(repr(kind_of(attribute)).encode())
         digest.update(b"" if attribute.name in moving else attribute.values.tobytes())
@@ -446,7 +515,9 @@ def _digest(run: JoinedRun) -> bytes:
 
 def _prepared(joined: JoinedMesh, options: SequenceOptions) -> Prepared:
     joined.mesh.require_sizes(*PROMISED_SIZES)
-    return prepare(joined, Parts(options.block_size, options.overlap), keep_order=options.keep_order)
+    return prepare(
+        joined, Parts(options.block_size, options.overlap), keep_order=options.keep_order
+    )
 
 
 def _positions(frame: Frame) -> Matrix:
@@ -458,7 +529,9 @@ class _Rounds:
 
     def __init__(self, progress: Progress, rounds: int, *, searches: bool) -> None:
         preparing, coding, finishing = _SEARCHED if searches else _CODED_ONCE
-        self._stages = Stages(progress, {"preparing": preparing, "coding": coding, "finishing": finishing})
+        self._stages = Stages(
+            progress, {"preparing": preparing, "coding": coding, "finishing": finishing}
+        )
         self._rounds, self._done = rounds, 0
 
     def __call__(self, finished: int, blocks: int) -> None:
@@ -494,7 +567,11 @@ def frames_of(positions: npt.ArrayLike) -> Positions:
         frames = np.asarray(positions, np.float64)
     except (TypeError, ValueError, OverflowError) as error:
         _refuse_changing_sizes(positions)
-        raise MeshError(f"the positions of a sequence are not an array of numbers: {error}") from error
+        raise MeshError(
+            f"the positions of a sequence are not an array of numbers: {error}"
+        ) from error
     if frames.ndim != 3 or frames.shape[2] != 3 or len(frames) == 0:
-        raise MeshError(f"the positions of a sequence must have shape (T, n, 3), T > 0, not {frames.shape}")
+        raise MeshError(
+            f"the positions of a sequence must have shape (T, n, 3), T > 0, not {frames.shape}"
+        )
     return frames

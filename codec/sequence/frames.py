@@ -37,7 +37,9 @@ class Group:
         return self._motion
 
 
-def next_group(frames: Iterator[Matrix], longest: int, prepared: Prepared, moving: Sequence[Attribute]) -> Group:
+def next_group(
+    frames: Iterator[Matrix], longest: int, prepared: Prepared, moving: Sequence[Attribute]
+) -> Group:
     """Return the next frames, shapes (n, 3 + ...), as many as a GOP may have; none after the last."""
     widths = [attribute.components for attribute in moving]
     ends = np.cumsum([3, *widths])[:-1]
@@ -54,7 +56,11 @@ def next_group(frames: Iterator[Matrix], longest: int, prepared: Prepared, movin
     kind = np.dtype((np.float64, (len(prepared.positions), 3)))
     group: Positions = np.fromiter(positions(), kind)
     return Group(
-        group, {attribute.name: np.array(column_of) for attribute, column_of in zip(moving, columns, strict=True)}
+        group,
+        {
+            attribute.name: np.array(column_of)
+            for attribute, column_of in zip(moving, columns, strict=True)
+        },
     )
 
 
@@ -76,7 +82,9 @@ def same_frames(frames: Positions, moving: Sequence[Values], step: float) -> Ord
 
 def _same(difference: Matrix, step: float) -> bool:
     mean, most = (share * step for share in SAME)
-    return bool(difference @ difference <= len(difference) * mean**2 and np.abs(difference).max() <= most)
+    return bool(
+        difference @ difference <= len(difference) * mean**2 and np.abs(difference).max() <= most
+    )
 
 
 def distinct_frames(same: Order) -> tuple[Order, Order]:

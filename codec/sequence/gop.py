@@ -77,7 +77,13 @@ class GopEncoder:
 
     def _follow(self, method: GopMethod) -> int:
         """The depth of a GOP that comes next."""
-        return -1 if not method.has_basis else self._depth + 1 if method is GopMethod.LEARNT_NEXT else 0
+        return (
+            -1
+            if not method.has_basis
+            else self._depth + 1
+            if method is GopMethod.LEARNT_NEXT
+            else 0
+        )
 
     @property
     def low_delay(self) -> bool:
@@ -95,7 +101,8 @@ class GopEncoder:
         width, columns = self._width, self._width * len(frames)
         back = self._nearest(frames)
         # With few frames there is nothing to learn a basis from, and cosines need not be sent.
-        rows = np.kron(time_cosines(len(frames)), np.eye(width))  # each cosine in one number after the other
+        # Each cosine in one number after the other.
+        rows = np.kron(time_cosines(len(frames)), np.eye(width))
         basis = np.ascontiguousarray(rows.reshape(len(frames), width, -1).transpose(1, 0, 2))
         targets = temporal.trajectories(frames) @ basis.reshape(-1, columns)
         method = GopMethod.KEY_FRAME if key else GopMethod.NEXT_FRAME
@@ -135,7 +142,9 @@ class GopEncoder:
         backs = range(count, len(self._kept) + 1)
         if not backs:
             return 0
-        off = [sum(_apart(frames[t], self._kept[back - 1 - t]) for t in range(count)) for back in backs]
+        off = [
+            sum(_apart(frames[t], self._kept[back - 1 - t]) for t in range(count)) for back in backs
+        ]
         latest = sum(_apart(frame, self._kept[0]) for frame in frames)
         best = int(np.argmin(off))
         return backs[best] if off[best] < LIKE * latest else 0
@@ -146,7 +155,9 @@ class GopEncoder:
         learnt, exponents = temporal.learn_basis(motion, self.step, MAX_EXPONENT)
         spectrum = temporal.spectrum_of(learnt / weights[:, None], exponents, width)
         payload, basis = self._track.basis(exponents, spectrum)
-        return GopField(width, self.step, len(exponents), exponents, payload, b""), basis.reshape(spectrum.shape)
+        return GopField(width, self.step, len(exponents), exponents, payload, b""), basis.reshape(
+            spectrum.shape
+        )
 
 
 def _apart(first: Matrix, second: Matrix) -> float:

@@ -108,10 +108,14 @@ class SequenceOptions:
         if self.target is not None:
             self.target._require_kind(SEQUENCE_TARGETS, "a sequence")
         # Other bounds of a contract are for meshes at rest; one that is silently not kept would be a lie.
-        if (bounds := self.promise) and bounds != Contract(bounds.farthest, absolute=bounds.absolute, look=bounds.look):
+        if (bounds := self.promise) and bounds != Contract(
+            bounds.farthest, absolute=bounds.absolute, look=bounds.look
+        ):
             raise OptionError(f"a sequence promises vertex errors and looks only, not {bounds}")
         if self.gop is not None and self.low_delay > self.gop:
-            raise OptionError(f"{self.low_delay} frames at a time are more than a GOP of {self.gop}")
+            raise OptionError(
+                f"{self.low_delay} frames at a time are more than a GOP of {self.gop}"
+            )
         object.__setattr__(self, "attributes", checked_qualities(self.attributes))
 
     def longest(self, vertices: int) -> int:

@@ -22,7 +22,14 @@ from bsm.codec.signal.transform import LARGEST_LEVEL, smallest_step
 from bsm.codec.static.coding import Adaptive, Scheme, rules_of
 from bsm.codec.static.preamble_encoding import Prepared
 from bsm.codec.static.units import single
-from bsm.codec.static.ways.block_coder import FRAME, CodedBlock, Sizing, blended, encode_blocks, mesh_memory
+from bsm.codec.static.ways.block_coder import (
+    FRAME,
+    CodedBlock,
+    Sizing,
+    blended,
+    encode_blocks,
+    mesh_memory,
+)
 from bsm.codec.threads import one_blas_thread
 
 FIRST_STEP = 0.3
@@ -38,7 +45,8 @@ FINEST_STEP = 2e-5  # below, a search does not look
 
 BYTE = 0.4  # squared errors of one step that a byte is worth, about as in the choice of levels
 
-ATTEMPT = 0.15  # share of the remaining time that an attempt takes, before frames are drawn; measured
+# Share of the remaining time that an attempt takes, before frames are drawn; measured.
+ATTEMPT = 0.15
 
 # Coding the first frame takes as long as several GOPs. Within these factors another one would save less than a percent.
 NEAR = 0.75, 1.4  # a first frame is reused for steps within these factors of its own
@@ -71,8 +79,12 @@ class FirstFrame:
             replace(positions, width=width, components=-(-positions.components * width // 3))
             for width in self.setting.widths[1:]
         )
-        needed = self.costs.memory + self.setting.memory_for(replace(body, fields=(positions, *others)))
-        return needed <= self.limits.memory_for(self.costs.vertices, self.costs.received + body.size)
+        needed = self.costs.memory + self.setting.memory_for(
+            replace(body, fields=(positions, *others))
+        )
+        return needed <= self.limits.memory_for(
+            self.costs.vertices, self.costs.received + body.size
+        )
 
 
 def encode_first_frame(
@@ -89,11 +101,19 @@ def encode_first_frame(
     # Every frame is predicted from the first, so its error shows in all of them; it gets a finer step.
     step = options.first_step or max(FIRST_STEP * options.step, finest)
     if step < finest:
-        raise OptionError(f"first_step = {step:g} is too fine for blocks of {prepared.size}, try {finest:.1e}")
+        raise OptionError(
+            f"first_step = {step:g} is too fine for blocks of {prepared.size}, try {finest:.1e}"
+        )
     width = max(1, round(options.keep * prepared.size))
-    scheme = Scheme(prepared.blocks, replace(FIRST_FRAME, whole=width), Adaptive(width, single(step)))
+    scheme = Scheme(
+        prepared.blocks, replace(FIRST_FRAME, whole=width), Adaptive(width, single(step))
+    )
     blocks = encode_blocks(
-        scheme, prepared.positions, threads=options.threads, sizing=Sizing(scheme.coding.width), progress=progress
+        scheme,
+        prepared.positions,
+        threads=options.threads,
+        sizing=Sizing(scheme.coding.width),
+        progress=progress,
     )
     header = Header(
         vertices=prepared.graph.size,
@@ -108,8 +128,12 @@ def encode_first_frame(
     positions = blended(prepared.graph.size, (block.decoded for block in blocks))
     setting = make_setting(scheme, prepared.mesh.faces, positions, moving)
     memory = mesh_memory(header.vertices, header.faces) + setting.memory
-    received = len(prepared.connectivity.data) + sum(len(block.packet.data) + FRAME for block in blocks)
-    costs = Kept(before.vertices + header.vertices, before.memory + memory, before.received + received)
+    received = len(prepared.connectivity.data) + sum(
+        len(block.packet.data) + FRAME for block in blocks
+    )
+    costs = Kept(
+        before.vertices + header.vertices, before.memory + memory, before.received + received
+    )
     return FirstFrame(header, blocks, setting, memory, costs, NAMED_LIMITS[options.limits]())
 
 
@@ -125,7 +149,9 @@ class EncodedGops:
 
     @property
     def size(self) -> int:
-        return sum(len(block.packet.data) for block in self.first_frame.blocks) + sum(body.size for body in self.bodies)
+        return sum(len(block.packet.data) for block in self.first_frame.blocks) + sum(
+            body.size for body in self.bodies
+        )
 
     def decoded_frames(self) -> Iterator[Matrix]:
         """Yield each decoded frame, shape (n, 3), in BSM units; they are not kept, because they are large."""
@@ -138,7 +164,9 @@ class EncodedGops:
 class RunEncoder:
     """Encodes the GOPs of a run, each with the step that keeps the options' promise in it, if there is one."""
 
-    def __init__(self, prepared: Prepared, options: SequenceOptions, count: int, progress: Progress) -> None:
+    def __init__(
+        self, prepared: Prepared, options: SequenceOptions, count: int, progress: Progress
+    ) -> None:
         self._prepared, self._options = prepared, options
         self._count, self._progress = count, progress
 
@@ -154,7 +182,9 @@ class RunEncoder:
                 coded_for = step
                 fitting = replace(self._options, step=step)
                 heard = silent if self._options.promise else progress
-                first_frame = encode_first_frame(self._prepared, fitting, self._count, heard, before, moving)
+                first_frame = encode_first_frame(
+                    self._prepared, fitting, self._count, heard, before, moving
+                )
             return EncodedGops(first_frame, GopEncoder(first_frame.setting, self._options), ())
 
         return self._kept(begun, group, 0, None)
@@ -162,16 +192,25 @@ class RunEncoder:
     def next(self, group: Group, number: int, before: EncodedGops) -> EncodedGops:
         """The GOP after another; its first frame has this number."""
         return self._kept(
-            lambda *_: EncodedGops(before.first_frame, before.encoder.copy(), ()), group, number, before.encoder.step
+            lambda *_: EncodedGops(before.first_frame, before.encoder.copy(), ()),
+            group,
+            number,
+            before.encoder.step,
         )
 
     def again(self, group: Group, before: EncodedGops) -> EncodedGops:
         """The first GOP of a run whose mesh an earlier run has brought."""
-        fresh = GopEncoder(before.first_frame.setting, replace(self._options, step=before.encoder.step))
+        fresh = GopEncoder(
+            before.first_frame.setting, replace(self._options, step=before.encoder.step)
+        )
         return self.next(group, 0, EncodedGops(before.first_frame, fresh, ()))
 
     def _kept(
-        self, begun: Callable[[float, Progress], EncodedGops], group: Group, number: int, step: float | None
+        self,
+        begun: Callable[[float, Progress], EncodedGops],
+        group: Group,
+        number: int,
+        step: float | None,
     ) -> EncodedGops:
         """Encode frames so that they keep the promise, near the `step` of the GOP before, if there is one."""
         options, promise, units = self._options, self._options.promise, self._prepared.units
@@ -179,7 +218,9 @@ class RunEncoder:
             step = options.step if step is None else step
             every = np.ones(len(group))
             with one_blas_thread():
-                return _encoded(begun(step, self._progress), step, every, (), group, number, self._progress)
+                return _encoded(
+                    begun(step, self._progress), step, every, (), group, number, self._progress
+                )
         lengths: tuple[int, ...] = ()
         nearing = Nearing(self._progress)
 
@@ -188,10 +229,13 @@ class RunEncoder:
             heard = nearing.within(ATTEMPT)
             gops = _encoded(begun(step, heard), step, weights, lengths, group, number, heard)
             # Where to cut depends little on the step, and finding it takes time.
-            lengths = tuple(body.frames for body in gops.bodies)  # as the first attempt was cut, so are the others
+            # As the first attempt was cut, so are the others.
+            lengths = tuple(body.frames for body in gops.bodies)
             return gops
 
-        search = StepSearch(group.positions, self._prepared.mesh.faces, promise, units, options.threads, nearing)
+        search = StepSearch(
+            group.positions, self._prepared.mesh.faces, promise, units, options.threads, nearing
+        )
         bound = 0.01 if promise.absolute else promise.farthest
         # About what the bound leads to, for most motions. From the second GOP on, the one before is the better guess.
         first = step or min(0.45 * bound, 4.5e-3 * min(promise.look, 1e3))
@@ -243,7 +287,10 @@ def _encoded(
         return gops
 
     def cost(gops: EncodedGops) -> float:
-        wrong = sum(float(squares_of(frame - decoded).sum()) for frame, decoded in zip(frames, gops.decoded_frames()))
+        wrong = sum(
+            float(squares_of(frame - decoded).sum())
+            for frame, decoded in zip(frames, gops.decoded_frames())
+        )
         return wrong / encoder.step**2 + BYTE * sum(body.size for body in gops.bodies)
 
     if lengths:
@@ -254,7 +301,12 @@ def _encoded(
 
 
 def _with_basis(
-    before: EncodedGops, motion: Motion, part: slice, weights: Matrix, same: Order, progress: Progress
+    before: EncodedGops,
+    motion: Motion,
+    part: slice,
+    weights: Matrix,
+    same: Order,
+    progress: Progress,
 ) -> EncodedGops:
     """Append some of the frames as a GOP with a basis, or as two where decoders lack the memory; repeated ones once."""
     distinct, places = distinct_frames(same[part])
@@ -270,4 +322,6 @@ def _with_basis(
         for half in slice(part.start, middle), slice(middle, part.stop):
             before = _with_basis(before, motion, half, weights, same, silent)
         return before
-    return EncodedGops(before.first_frame, encoder, (*before.bodies, body), (*before.learnt, learnt))
+    return EncodedGops(
+        before.first_frame, encoder, (*before.bodies, body), (*before.learnt, learnt)
+    )

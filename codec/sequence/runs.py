@@ -57,7 +57,12 @@ class RunSplitter:
     """Cuts frames into runs."""
 
     def __init__(
-        self, frames: Iterable[Frame], faces: npt.ArrayLike, *, allowed: bool, attributes: Sequence[Attribute] = ()
+        self,
+        frames: Iterable[Frame],
+        faces: npt.ArrayLike,
+        *,
+        allowed: bool,
+        attributes: Sequence[Attribute] = (),
     ) -> None:
         self._frames = iter(frames)
         self._faces = faces
@@ -66,17 +71,22 @@ class RunSplitter:
         # One frame ahead, to know whether a run goes on.
         self._ahead: Frame | None = next(self._frames, None)
         self._number = 0
-        self._shown: dict[str, str | int | float | bytes] | None = None  # materials and images of the first frame
+        # Materials and images of the first frame.
+        self._shown: dict[str, str | int | float | bytes] | None = None
         self.changed: dict[str, int] = {}
 
     def runs(self) -> Iterator[Run]:
         """One run after the other."""
         while (ahead := self._ahead) is not None:
             mesh = (
-                ahead if isinstance(ahead, TriangleMesh) else TriangleMesh(np.asarray(ahead), np.asarray(self._faces))
+                ahead
+                if isinstance(ahead, TriangleMesh)
+                else TriangleMesh(np.asarray(ahead), np.asarray(self._faces))
             )
             self._note_materials(mesh)
-            moving = tuple(a for a in mesh.attributes if can_move(a) and a.name in (self._names or {a.name}))
+            moving = tuple(
+                a for a in mesh.attributes if can_move(a) and a.name in (self._names or {a.name})
+            )
             yield Run(mesh, self._of(mesh, moving), self._number, moving)
 
     def _of(self, mesh: TriangleMesh, moving: tuple[Attribute, ...]) -> Iterator[npt.ArrayLike]:
@@ -105,14 +115,20 @@ class RunSplitter:
             if now.get(name) != first.get(name):
                 self.changed.setdefault(name, self._number)
 
-    def _frame(self, first: TriangleMesh, moving: tuple[Attribute, ...], mesh: TriangleMesh) -> npt.ArrayLike:
+    def _frame(
+        self, first: TriangleMesh, moving: tuple[Attribute, ...], mesh: TriangleMesh
+    ) -> npt.ArrayLike:
         """A frame of the run that begins with `first`."""
         columns = [mesh.positions]
         for attribute in first.attributes:
             now = moved_to(attribute, mesh.attributes) if attribute in moving else None
             if attribute in moving:
                 columns.append((now or attribute).values.astype(np.float64))
-            if attribute.semantic != "normal" and now is None and not has(mesh.attributes, attribute):
+            if (
+                attribute.semantic != "normal"
+                and now is None
+                and not has(mesh.attributes, attribute)
+            ):
                 self.changed.setdefault(attribute.name, self._number)
         # Attributes that move ride along as further columns, through joining and grouping.
         return np.hstack(columns) if moving else mesh.positions
@@ -130,7 +146,13 @@ def moved_to(attribute: Attribute, others: Iterable[Attribute]) -> Attribute | N
 
 
 def kind_of(attribute: Attribute) -> tuple[object, ...]:
-    return attribute.name, attribute.domain, attribute.semantic, attribute.values.dtype, attribute.values.shape
+    return (
+        attribute.name,
+        attribute.domain,
+        attribute.semantic,
+        attribute.values.dtype,
+        attribute.values.shape,
+    )
 
 
 def other_faces(mesh: TriangleMesh, following: TriangleMesh) -> str:
@@ -178,7 +200,10 @@ class _Frames:
     def __init__(self, run: Run) -> None:
         self.number = run.first
         self._frames = iter(run.frames)
-        self._shape = len(run.mesh.positions), 3 + sum(attribute.components for attribute in run.moving)
+        self._shape = (
+            len(run.mesh.positions),
+            3 + sum(attribute.components for attribute in run.moving),
+        )
         self._ahead: Matrix | None = None
         self._box: tuple[Matrix, Matrix] | None = None
 
@@ -200,7 +225,9 @@ class _Frames:
             merged_positions = positions[mesh.first]
             # Joined vertices may part later. Then a run ends, and the next one has them apart.
             apart = (
-                (positions[used] != merged_positions[mesh.index[used]]).any(axis=1) if merged else np.zeros(0, np.bool_)
+                (positions[used] != merged_positions[mesh.index[used]]).any(axis=1)
+                if merged
+                else np.zeros(0, np.bool_)
             )
             if apart.any():
                 if not may_part:
@@ -218,14 +245,21 @@ class _Frames:
     def _checked(self, frame: npt.ArrayLike) -> Matrix:
         positions = np.asarray(frame, np.float64)
         if positions.shape != self._shape:
-            raise MeshError(f"frame {self.number} has shape {positions.shape}, the first one {self._shape}")
+            raise MeshError(
+                f"frame {self.number} has shape {positions.shape}, the first one {self._shape}"
+            )
         if not np.isfinite(positions).all():
             vertex = int(np.argmin(np.isfinite(positions).all(axis=1)))
-            raise MeshError(f"vertex {vertex} of frame {self.number} has a number that is not finite; repair it")
+            raise MeshError(
+                f"vertex {vertex} of frame {self.number} has a number that is not finite; repair it"
+            )
         require_sizes(positions[:, :3])  # columns of attributes follow
         # The first frame is the measure: later ones may be the broken ones.
         low, high = self._box = self._box or box_around(positions[:, :3])
-        apart, diagonal = np.linalg.norm(positions[:, :3] - low, axis=1), float(np.linalg.norm(high - low))
+        apart, diagonal = (
+            np.linalg.norm(positions[:, :3] - low, axis=1),
+            float(np.linalg.norm(high - low)),
+        )
         if apart[vertex := int(apart.argmax())] > FARTHEST * diagonal > 0.0:
             far = apart[vertex] / diagonal
             raise MeshError(

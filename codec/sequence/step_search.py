@@ -37,7 +37,8 @@ from bsm.codec.static.units import Units
 from bsm.codec.threads import ordered_map
 
 KNOTS = 8  # frames, evenly over a GOP, that are drawn at the first attempt
-DRIFT = 0.05  # standard deviation of what the logarithm of look over foresight changes by from attempt to attempt
+# Standard deviation of what the logarithm of look over foresight changes by from attempt to attempt.
+DRIFT = 0.05
 PACE, NOISE, LIKE_SEEN = 0.05, 0.03, 3
 """Of the logarithm of look over foresight: the variance by which it walks from frame to frame, over that of its noise;
 the standard deviation of this before frames are drawn, and how many differences of frames that counts as."""
@@ -48,22 +49,26 @@ KEPT = 1 << 27  # bytes of pictures of originals that are kept from attempt to a
 PRICE, PRICE_OF_ONE = 0.01, 0.04
 """Share of the bytes that the second attempt must save, about, the third twice as much and so on, of a GOP; and that
 each must save of a frame by itself, which must be quick."""
-SPARE = 0.02  # logarithm of what a step is aimed below the bound; more after each miss and each doubtful frame over it
+# Logarithm of what a step is aimed below the bound; more after each miss and each doubtful frame over it.
+SPARE = 0.02
 SLOPE = 0.5  # the power of the step that bytes fall by, about
 TWIN_STEP, TWIN = 1 / 16, 1.005
 """A step, in reaches, far below which frames are the same; and how much worse than another one may look."""
 EVENING, LEAST_LOOK, WIDEST = 1.6, 0.1, 1.4
 """Power of looks by which the first attempt weighs frames, the k-th by 1 / k of it; the least look that counts,
 relative to the largest; and the largest logarithm of a weight."""
-BELL = (1 / 16, 4 / 16, 6 / 16, 4 / 16, 1 / 16)  # smooths weights, whose quick changes are dear in the temporal basis
+# Smooths weights, whose quick changes are dear in the temporal basis.
+BELL = (1 / 16, 4 / 16, 6 / 16, 4 / 16, 1 / 16)
 RELIEF = 0.35  # share of the largest change of a weight by which the excess falls, about
 TRIES, HELD = 20, 2  # attempts, and how many of them are held that seem to keep the promise
 DRAWING = 0.03  # share of the remaining time that pictures of a frame take; measured
-LEAST_STEP, FINER = 1e-7, 0.8  # the finest step, and what steps shrink by at least once all attempts have failed
+# The finest step, and what steps shrink by at least once all attempts have failed.
+LEAST_STEP, FINER = 1e-7, 0.8
 COPIES_APART = 2.0**-22
 """How far copies of a vertex are drawn apart, as a share of the extent, so that they are not shaded as one: a few steps
 of the grid on which a picture joins vertices."""
-_PIXEL = 4 * 6 / 16  # bytes of a `LookMetric` for each sample along the side of its pictures, squared
+# Bytes of a `LookMetric` for each sample along the side of its pictures, squared.
+_PIXEL = 4 * 6 / 16
 
 
 class Candidate(Protocol):
@@ -94,7 +99,10 @@ class StepSearch:
     ) -> None:
         self._progress = progress or Nearing(None)
         self._frames, self._faces, self._promise, self._threads = frames, faces, promise, threads
-        self._units, self._reach = units, promise.reach(1.0, units.scale if promise.absolute else 1.0)
+        self._units, self._reach = (
+            units,
+            promise.reach(1.0, units.scale if promise.absolute else 1.0),
+        )
         self._metrics: dict[int, LookMetric] = {}
         self._room = KEPT
         self._knots: set[int] = set()
@@ -105,9 +113,21 @@ class StepSearch:
             self._sides = [sides_of(frame) for frame in frames]
             # Captured motion rests for many frames, which look the same and need be drawn once.
             self._twins = same_frames(frames, (), TWIN_STEP * self._reach)
-            self._knots.update(np.linspace(0, len(frames) - 1, min(KNOTS, len(frames))).round().astype(int).tolist())
+            self._knots.update(
+                np.linspace(0, len(frames) - 1, min(KNOTS, len(frames)))
+                .round()
+                .astype(int)
+                .tolist()
+            )
 
-    def run(self, encode: Callable[[float, Matrix], Found], first: float, finest: float, *, weighed: bool) -> Found:
+    def run(
+        self,
+        encode: Callable[[float, Matrix], Found],
+        first: float,
+        finest: float,
+        *,
+        weighed: bool,
+    ) -> Found:
         """Return the smallest encoding that keeps the promise in every frame; `encode` takes step and weights."""
         weighed = weighed and len(self._frames) > 1 and bool(self._knots)
         candidates: list[Tried[Found]] = []  # the smallest that seem to keep the promise
@@ -132,7 +152,9 @@ class StepSearch:
                 last = latest.step == (COARSEST_STEP if latest.excess <= 0.0 else finest)
                 # What the next attempt would take, about. It is made only if it can save more than its price.
                 likely = latest.gops.size * (latest.step / step) ** SLOPE
-                if not candidates or not (last or attempt == TRIES or likely > (1.0 - price) * candidates[0].gops.size):
+                if not candidates or not (
+                    last or attempt == TRIES or likely > (1.0 - price) * candidates[0].gops.size
+                ):
                     break
                 # Only here are all doubtful frames drawn: once, for the stream that would be returned.
                 if self._is_certain(candidates[0]):
@@ -145,7 +167,9 @@ class StepSearch:
         certain = (tried.gops for tried in candidates if self._is_certain(tried))
         return next(certain, None) or self._finer(encode, min(max(step, finest), COARSEST_STEP))
 
-    def _tried(self, encode: Callable[[float, Matrix], Found], step: float, evened: Matrix) -> Tried[Found]:
+    def _tried(
+        self, encode: Callable[[float, Matrix], Found], step: float, evened: Matrix
+    ) -> Tried[Found]:
         gops = encode(step, np.exp(evened))
         return Tried(gops, step, evened, self._measure(list(gops.decoded_frames())))
 
@@ -153,7 +177,9 @@ class StepSearch:
         """Return those that seem to keep the promise, by the looks known now; the smallest first."""
         for tried in attempts:
             tried.measured.before = tried.measured.before | self._ratios
-        return sorted((tried for tried in attempts if tried.excess <= 0.0), key=lambda tried: tried.gops.size)[:HELD]
+        return sorted(
+            (tried for tried in attempts if tried.excess <= 0.0), key=lambda tried: tried.gops.size
+        )[:HELD]
 
     def _finer(self, encode: Callable[[float, Matrix], Found], step: float) -> Found:
         """Return the first encoding, with finer and finer steps, that keeps the promise."""
@@ -163,7 +189,9 @@ class StepSearch:
                 if self._is_certain(tried):
                     return tried.gops
                 step *= min(FINER, math.exp(-tried.excess / POWER))
-        raise TargetError(f"{self._promise} cannot be kept in every frame, even with step {step:.2g}")
+        raise TargetError(
+            f"{self._promise} cannot be kept in every frame, even with step {step:.2g}"
+        )
 
     def _following(self, tried: Tried[Found], attempt: int, spare: float) -> tuple[float, Matrix]:
         """The step after one that was tried, and weights; they stay if the `attempt` is 0."""
@@ -189,7 +217,12 @@ class StepSearch:
         looks = ordered_map(lambda version: self._foresight.look(*version), versions, self._threads)
         foreseen = np.array(list(looks)).clip(1e-12)
         knots = () if self._ratios else self._knots
-        measured = Measured(distances, foreseen, {index: self._look(index, decoded) for index in knots}, self._ratios)
+        measured = Measured(
+            distances,
+            foreseen,
+            {index: self._look(index, decoded) for index in knots},
+            self._ratios,
+        )
         while (index := int(measured.looks(LIKELY).argmax())) not in measured.drawn:
             measured.drawn[index] = self._look(index, decoded)
         self._ratios = measured.ratios
@@ -282,7 +315,11 @@ class Measured:
     @property
     def ratios(self) -> dict[int, float]:
         """Logarithms of looks over foreseen ones, of all frames that were ever drawn."""
-        now = {index: math.log(share / self.foreseen[index]) for index, share in self.drawn.items() if share > 0.0}
+        now = {
+            index: math.log(share / self.foreseen[index])
+            for index, share in self.drawn.items()
+            if share > 0.0
+        }
         return {**self.before, **now}
 
     def looks(self, deviations: float = 0.0) -> Matrix:
@@ -331,7 +368,9 @@ def _with_copies_apart(frame: Positions) -> Positions:
         return frame  # no vertex is a copy
     counts = np.bincount(index)
     rank = np.empty(len(index), np.int64)
-    rank[np.argsort(index, kind="stable")] = np.arange(len(index)) - np.repeat(np.cumsum(counts) - counts, counts)
+    rank[np.argsort(index, kind="stable")] = np.arange(len(index)) - np.repeat(
+        np.cumsum(counts) - counts, counts
+    )
     apart = COPIES_APART * np.ptp(frame, axis=0).max(initial=0.0)
     return np.asarray(frame + (apart * rank)[:, None])
 

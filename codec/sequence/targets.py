@@ -11,7 +11,8 @@ from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.metrics import Comparison, Reference
 from bsm.codec.static.targets import Target
 
-RISES = {"kg": 0.78}  # the power of the step that errors grow with, where it is known before two are tried; 1 elsewhere
+# The power of the step that errors grow with, where it is known before two are tried; 1 elsewhere.
+RISES = {"kg": 0.78}
 
 
 @dataclass(frozen=True)
@@ -43,7 +44,10 @@ def compare_runs(runs: Runs) -> tuple[SequenceComparison, list[dict[str, float]]
     for original, decoded, faces in runs:
         of_run = [Reference(a, faces).compare(b) for a, b in zip(original, decoded, strict=True)]
         diagonal = float(np.linalg.norm(np.ptp(original[0], axis=0))) or 1.0
-        each += [{"rms_relative": f.rms / diagonal, "max_error_relative": f.max_error / diagonal} for f in of_run]
+        each += [
+            {"rms_relative": f.rms / diagonal, "max_error_relative": f.max_error / diagonal}
+            for f in of_run
+        ]
         comparisons += of_run
         wrong += float(np.square(original - decoded).sum())
         # Karni and Gotsman divide by the motion about the mean of each frame, so that a walk across the room counts
@@ -60,7 +64,8 @@ def compare_runs(runs: Runs) -> tuple[SequenceComparison, list[dict[str, float]]
         rms_relative=math.sqrt(float(np.mean([frame["rms_relative"] ** 2 for frame in each]))),
         max_error=max(frame.max_error for frame in comparisons),
         max_error_relative=max(frame["max_error_relative"] for frame in each),
-        flicker=_percent(flicker, motion if motion > 1e-13 * extent else 0.0),  # less is a constant speed, rounded
+        # Less is a constant speed, rounded.
+        flicker=_percent(flicker, motion if motion > 1e-13 * extent else 0.0),
     )
     return compared, each
 

@@ -40,7 +40,8 @@ cost 0.3 % more, 0.8 costs 1 %."""
 PRECISION = 1.0
 """Error of a column of the basis, times the root of the energy that it multiplies, in steps. A bit of the basis and one
 of the components are worth the same from 1 to 1.4; the finer, the less the error changes from frame to frame."""
-PLACES, CLEARLY = 12, 0.95  # places where cuts are looked for at first; the share of costs with which they are worth it
+# Places where cuts are looked for at first; the share of costs with which they are worth it.
+PLACES, CLEARLY = 12, 0.95
 DENSE, SENT, BEGUN = 0.1, 11.0, 2_000.0
 """The share of vertices that have the energy of a component; the price of a bit of the basis over one of a field:
 most levels of fields are zeros that others foretell; and bits of a field that a GOP takes besides. They fit the bytes
@@ -49,9 +50,11 @@ FAINT, FINER = 1 / 64, 0.5
 """Rows of a motion with less than this share of the energy that a component is kept for are left out; and the share of
 the step at which more of them count."""
 MOST_ROWS = 256  # of a motion, by which lengths are chosen
-LEAST = 1e-9  # of a column's length on the diagonal, at least: below 0 it would be another reflection
+# Of a column's length on the diagonal, at least: below 0 it would be another reflection.
+LEAST = 1e-9
 BATCH = _kernels.BATCH  # frames that are reconstructed at a time
-FINEST_EXPONENT = OCTAVE * 23 - 1  # with a finer step the levels of a column of length one could not be coded
+# With a finer step the levels of a column of length one could not be coded.
+FINEST_EXPONENT = OCTAVE * 23 - 1
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,12 +82,17 @@ class Decomposition:
         """Return the components that show at a step."""
         rows = trajectories(self._frames)
         count = int(np.count_nonzero(self._energies > FAINT * least_energy(rows.shape[1], step)))
-        vectors, roots = np.ascontiguousarray(self._vectors[:, :count]), np.sqrt(self._energies[:count])
+        vectors, roots = (
+            np.ascontiguousarray(self._vectors[:, :count]),
+            np.sqrt(self._energies[:count]),
+        )
         if self._few:
             fields, shapes = vectors, vectors.T @ rows
         else:
             fields, shapes = rows @ (vectors / roots), (vectors * roots).T
-        shapes = np.ascontiguousarray(shapes).reshape(count, self._frames.shape[2], len(self._frames))
+        shapes = np.ascontiguousarray(shapes).reshape(
+            count, self._frames.shape[2], len(self._frames)
+        )
         return Motion(fields, shapes, FINER * step)
 
 
@@ -105,8 +113,11 @@ def lengths_of(motion: Motion, step: float) -> list[int]:
         energies = np.linalg.eigvalsh(rows.T @ rows if len(rows) > rows.shape[1] else rows @ rows.T)
         strong = energies[energies > least_energy(rows.shape[1], step)]
         # The spectrum of a cosine transform by an FFT, without a matrix of cosines.
-        there_and_back = np.concatenate([part, part[..., ::-1]], axis=2)  # its sines vanish, and cosines remain
-        smooth = np.square(np.abs(np.fft.rfft(there_and_back)[..., : end - begin])).sum(axis=0) / (2 * (end - begin))
+        # Its sines vanish, and cosines remain.
+        there_and_back = np.concatenate([part, part[..., ::-1]], axis=2)
+        smooth = np.square(np.abs(np.fft.rfft(there_and_back)[..., : end - begin])).sum(axis=0) / (
+            2 * (end - begin)
+        )
         fields = vertices * np.log2(1.0 + strong / (DENSE * vertices * step**2)).sum()
         basis = len(strong) * np.log2(1.0 + smooth / (max(1, len(strong)) * step**2)).sum()
         return float(fields + SENT * basis + BEGUN)
@@ -126,9 +137,12 @@ def lengths_of(motion: Motion, step: float) -> list[int]:
     while len(cuts) > 2 and (stride := stride // 2):
         for at in range(1, len(cuts) - 1):
             low, middle, high = cuts[at - 1 : at + 2]
-            candidates = (place for place in (middle, middle - stride, middle + stride) if low < place < high)
+            candidates = (
+                place for place in (middle, middle - stride, middle + stride) if low < place < high
+            )
             cuts[at] = min(candidates, key=lambda place: bits(low, place) + bits(place, high))
-        between = ((low + high) // 2 for low, high in pairwise(cuts))  # of two cuts beside a change, one is enough
+        # Of two cuts beside a change, one is enough.
+        between = ((low + high) // 2 for low, high in pairwise(cuts))
         cuts = cheapest(sorted({*cuts, *between}))
     # An estimate that is nearly even is noise, and one GOP is simpler.
     if sum(bits(*part) for part in pairwise(cuts)) >= CLEARLY * bits(0, frames):
@@ -138,7 +152,8 @@ def lengths_of(motion: Motion, step: float) -> list[int]:
 
 def learn_basis(motion: Matrix, step: float, limit: int) -> tuple[Matrix, npt.NDArray[np.int32]]:
     """Return eigenvectors of the covariance of trajectories, all coordinates coupled, and the exponents of steps."""
-    few = len(motion) < motion.shape[1]  # then vertices have the smaller matrix, of the same energies
+    # Then vertices have the smaller matrix, of the same energies.
+    few = len(motion) < motion.shape[1]
     energies, vectors = np.linalg.eigh(motion @ motion.T if few else motion.T @ motion)
     count = int(np.count_nonzero(energies > least_energy(motion.shape[1], step)))
     strongest = energies[: -count - 1 : -1]
@@ -186,7 +201,8 @@ def free_of(columns: Matrix) -> Matrix:
         return columns.copy()
     # LAPACK's raw form is the vectors of the reflections themselves: these are the degrees of freedom of orthonormal
     # columns.
-    packed, factors = np.linalg.qr(columns, mode="raw")  # vectors are 1 on the diagonal, where lengths stand instead
+    # Vectors are 1 on the diagonal, where lengths stand instead.
+    packed, factors = np.linalg.qr(columns, mode="raw")
     lengths = np.diagonal(packed)
     # Of a diagonal that rounding has made 0 the length tells the sign: where it is reflected, it is the other one.
     negative = np.where(factors > 0.0, lengths > 0.0, lengths < 0.0)
@@ -205,6 +221,9 @@ def frames_of(field: Matrix, first: int, basis: Matrix) -> Iterator[Matrix]:
         weights[:, :, :count] = part.transpose(2, 0, 1)
         frames_now = np.empty((count, len(field), width))
         _kernels.show_frames(
-            field, first, weights.reshape(components, width * BATCH), frames_now.reshape(count * len(field), width)
+            field,
+            first,
+            weights.reshape(components, width * BATCH),
+            frames_now.reshape(count * len(field), width),
         )
         yield from frames_now

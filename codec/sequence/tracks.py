@@ -38,11 +38,15 @@ class Setting:
         return self.chain.gop_memory(body.method, body.frames, fields)
 
 
-def make_setting(scheme: Scheme, faces: Faces, first_frame: Matrix, moving: Sequence[Matrix] = ()) -> Setting:
+def make_setting(
+    scheme: Scheme, faces: Faces, first_frame: Matrix, moving: Sequence[Matrix] = ()
+) -> Setting:
     """Make the dictionaries from the decoded first frame, shape (n, 3), and the first values of what moves, (n, d)."""
     # The dictionaries of a sequence are made once and kept, for every GOP uses all of them.
     chain = Chain(scheme.rules, scheme.blocks)
     widths = [values.shape[1] for values in moving]
     starts = np.ascontiguousarray(np.hstack([np.empty((len(first_frame), 0)), *moving]))
-    memory = chain.hang(faces, np.ascontiguousarray(first_frame), starts, np.array(widths, np.int32))
+    memory = chain.hang(
+        faces, np.ascontiguousarray(first_frame), starts, np.array(widths, np.int32)
+    )
     return Setting(chain, len(first_frame), (3, *widths), memory)

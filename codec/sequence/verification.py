@@ -43,7 +43,9 @@ def diagonal_of(positions: Positions) -> float:
 class SequenceVerifier:
     """Decodes a sequence chunk by chunk, measures the promise, and collects originals and results in `shown`."""
 
-    def __init__(self, options: SequenceOptions, metadata: Metadata, pairs: list[Measured] | None = None) -> None:
+    def __init__(
+        self, options: SequenceOptions, metadata: Metadata, pairs: list[Measured] | None = None
+    ) -> None:
         self._decoder = SequenceDecoder(NAMED_LIMITS[options.limits](), options.threads)
         self._promise, self._metadata, self._shown = options.promise, metadata, pairs
         self._meshes: deque[tuple[AsGiven, tuple[PreparedAttribute, ...]]] = deque()
@@ -52,14 +54,22 @@ class SequenceVerifier:
         self._ended = False
         self._wrong = self._extent = 0.0  # sums of squares over all frames
         self._worst: tuple[float, Positions, Positions, Faces] | None = None
-        self.farthest = self.farthest_relative = 0.0  # the largest error of a vertex so far, and over the diagonal
-        self.attribute_errors: dict[str, float] = {}  # the largest errors so far of attributes that move
+        # The largest error of a vertex so far, and over the diagonal.
+        self.farthest = self.farthest_relative = 0.0
+        # The largest errors so far of attributes that move.
+        self.attribute_errors: dict[str, float] = {}
         self.faces: Faces = np.zeros((0, 3), np.int32)
 
     @property
     def kg(self) -> float:
         """The error of Karni and Gotsman so far, in percent, see `SequenceComparison`."""
-        return 100.0 * math.sqrt(self._wrong / self._extent) if self._extent else math.inf if self._wrong else 0.0
+        return (
+            100.0 * math.sqrt(self._wrong / self._extent)
+            if self._extent
+            else math.inf
+            if self._wrong
+            else 0.0
+        )
 
     @property
     def worst_look(self) -> float | None:
@@ -95,12 +105,18 @@ class SequenceVerifier:
             raise VerificationError(f"the decoder refuses the encoded stream: {error}") from error
         if last:
             # Frames that never came back would be found by nothing else.
-            require(self._ended and not self._frames and not self._meshes, "the decoder did not return all frames")
+            require(
+                self._ended and not self._frames and not self._meshes,
+                "the decoder did not return all frames",
+            )
             require(self._decoder.metadata == dict(self._metadata), "the decoded metadata differ")
             if self._promise is not None and self._promise.look < math.inf:
                 # The search has drawn the others. This frame is drawn again, from what the decoder returned.
                 look, most = self.worst_look or 0.0, self._promise.look
-                require(look <= most * (1.0 + ROUNDING), f"a frame has look {look:.4g}; the bound is {most:g}")
+                require(
+                    look <= most * (1.0 + ROUNDING),
+                    f"a frame has look {look:.4g}; the bound is {most:g}",
+                )
         return chunk
 
     def _begin(self, faces: Faces, vertices: int) -> None:
@@ -109,7 +125,11 @@ class SequenceVerifier:
         self._matched = self._original.matched(faces, vertices)
         self._foresight = Foresight(self._original.prepared.mesh.faces)
         self._diagonal = 0.0
-        self._checked, self.faces, self._once = False, faces, np.unique(self._matched, return_index=True)[1]
+        self._checked, self.faces, self._once = (
+            False,
+            faces,
+            np.unique(self._matched, return_index=True)[1],
+        )
 
     def _compare(self, frame: FrameEvent) -> None:
         require(bool(self._frames), "the decoder returned a frame that was not encoded")
@@ -119,21 +139,38 @@ class SequenceVerifier:
         # Attributes that rest are the same in every frame.
         if not self._checked:
             moving = {each.number for each in expected.moving}
-            still = [attribute for number, attribute in enumerate(frame.attributes) if number not in moving]
+            still = [
+                attribute
+                for number, attribute in enumerate(frame.attributes)
+                if number not in moving
+            ]
             require_attributes(still, self._carried, self.faces, self._original)
             self._checked = True
         for each in expected.moving:
             decoded = np.asarray(frame.attributes[each.number].values, np.float64)
-            name, apart = frame.attributes[each.number].name, np.abs(decoded[self._once] - each.values)
-            self.attribute_errors[name] = max(self.attribute_errors.get(name, 0.0), float(apart.max(initial=0.0)))
-            off = each.bound.between(decoded[self._once], each.values.astype(np.float64))  # averages count no copies
-            require(off <= 1.0, f"a decoded attribute that moves is {off:.3g} times as far off as it may be")
-            require(np.array_equal(decoded, decoded[self._once][self._matched]), "decoded copies of a vertex differ")
+            name, apart = (
+                frame.attributes[each.number].name,
+                np.abs(decoded[self._once] - each.values),
+            )
+            self.attribute_errors[name] = max(
+                self.attribute_errors.get(name, 0.0), float(apart.max(initial=0.0))
+            )
+            # Averages count no copies.
+            off = each.bound.between(decoded[self._once], each.values.astype(np.float64))
+            require(
+                off <= 1.0,
+                f"a decoded attribute that moves is {off:.3g} times as far off as it may be",
+            )
+            require(
+                np.array_equal(decoded, decoded[self._once][self._matched]),
+                "decoded copies of a vertex differ",
+            )
 
     def _measure(self, frame: FrameEvent, expected: ExpectedFrame) -> None:
         """Add up errors, and require that no vertex is farther off than was promised."""
         units, faces = self._original.prepared.units, self._original.prepared.mesh.faces
-        original, decoded = units.back(expected.original), expected.positions  # which are the decoder's, each once
+        # Which are the decoder's, each once.
+        original, decoded = units.back(expected.original), expected.positions
         apart = np.square(decoded - original).sum(axis=1)
         if self._shown is not None:
             self._shown.append((original, decoded, faces))
@@ -145,7 +182,9 @@ class SequenceVerifier:
         if self._promise is not None:
             most = self._promise.reach(units.scale, 1.0)
             # Positions far from the origin are rounded when they go back to the unit of the mesh.
-            rounding = ROUNDING * most + 8.0 * float(np.finfo(np.float64).eps * np.abs(original).max())
+            rounding = ROUNDING * most + 8.0 * float(
+                np.finfo(np.float64).eps * np.abs(original).max()
+            )
             require(far <= most + rounding, f"a vertex of frame {frame.index} is off by {far:.4g}")
         foreseen = self._foresight.look(original, decoded)
         if self._worst is None or foreseen > self._worst[0]:

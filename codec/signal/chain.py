@@ -89,7 +89,14 @@ class Chain(Steps):
     def __init__(self, rules: ChainRules, blocks: Blocks, width: int = 0) -> None:
         graph, self._own = blocks.graph, rules.overrides
         self._blocks, self._keeps, self._rows = blocks, rules.exact and not rules.springs, 0
-        arrays = graph.offsets, graph.neighbors, blocks.cores, blocks.starts, blocks.edges, blocks.members
+        arrays = (
+            graph.offsets,
+            graph.neighbors,
+            blocks.cores,
+            blocks.starts,
+            blocks.edges,
+            blocks.members,
+        )
         # Overrides are functions of Python, which the chain in C knows nothing of.
         given = {name: value for name, value in vars(rules).items() if name != "overrides"}
         super().__init__(*arrays, **given, width=width)
@@ -97,7 +104,11 @@ class Chain(Steps):
     def begin(self, index: int) -> tuple[Indices, Matrix, Matrix]:
         """Return the vertices of the next block, its prediction, shape (n_i, 3), and its weights in a blend."""
         vertices, prediction, weights = super().begin(index)
-        self._index, self.is_exact, self._rows = index, self._keeps and len(vertices) != self._rows, len(vertices)
+        self._index, self.is_exact, self._rows = (
+            index,
+            self._keeps and len(vertices) != self._rows,
+            len(vertices),
+        )
         # The site costs copies of arrays, and only researchers ask for it.
         if self._own is not AS_SPECIFIED:
             self._site = Around(vertices, *self.site(), prediction)
@@ -109,7 +120,9 @@ class Chain(Steps):
         """U of the block, shape (n_i, width), a function of connectivity and earlier widths only."""
         if self._own.dictionary is None:
             return self._exact(width) if self.is_exact else super().dictionary(width)
-        own = np.ascontiguousarray(self._own.dictionary(self._site, width, super().dictionary), np.float32)
+        own = np.ascontiguousarray(
+            self._own.dictionary(self._site, width, super().dictionary), np.float32
+        )
         # The next block starts from this dictionary, as a decoder with the same override would.
         self.give(own)
         return own
@@ -133,7 +146,9 @@ class Chain(Steps):
 
     def rough(self, width: int) -> Basis:
         """About the exact basis, by a few iterations from cosines."""
-        return self._blocks.block(self._index).iterated(cosine_columns(self._rows, width), ROUGH_SHIFT, 2, 4)
+        return self._blocks.block(self._index).iterated(
+            cosine_columns(self._rows, width), ROUGH_SHIFT, 2, 4
+        )
 
     def costs(self, width: int) -> tuple[float, float, float]:
         """Work of the dictionary and of the rest of the block, nanoseconds, and memory, by decoders' estimate."""

@@ -30,7 +30,9 @@ def smooth(graph: Graph, positions: Matrix, amount: float) -> Matrix:
 def local_frames(positions: Positions, faces: Faces) -> Matrix:
     """Normal and two tangents of each vertex, orthonormal, shape (n, 9)."""
     frames = np.empty((len(positions), 9))
-    _kernels.local_frames(np.ascontiguousarray(positions, np.float64), np.ascontiguousarray(faces, np.int32), frames)
+    _kernels.local_frames(
+        np.ascontiguousarray(positions, np.float64), np.ascontiguousarray(faces, np.int32), frames
+    )
     return frames
 
 

@@ -30,7 +30,9 @@ def reconstruct(subspace: Basis, coefficients: Matrix) -> Matrix:
     """V = U E, shape (n, d) or (n,), for E of shape (c, d) or (c,); U is the first c columns of `subspace`."""
     if len(coefficients) > subspace.shape[1]:
         raise ValueError(f"{len(coefficients)} coefficients for {subspace.shape[1]} columns")
-    flat = np.ascontiguousarray(coefficients.reshape(len(coefficients), math.prod(coefficients.shape[1:])))
+    flat = np.ascontiguousarray(
+        coefficients.reshape(len(coefficients), math.prod(coefficients.shape[1:]))
+    )
     values = np.empty((len(subspace), flat.shape[1]))
     _kernels.reconstruct(np.ascontiguousarray(subspace), flat, values)
     return values.reshape(len(subspace), *coefficients.shape[1:])
@@ -49,7 +51,9 @@ def packed_range(first: float, others: float, bits: int) -> tuple[float, int]:
     """Step with which `bits` bits hold every coefficient, and how many bits coarser the first row is for that."""
     half = (1 << (bits - 1)) - 1
     # The header has single precision. Rounded up, so that the largest coefficient still fits.
-    step = float(np.nextafter(np.float32(max(others, first * 2.0**-20, 2.0**-20) / half), np.float32(np.inf)))
+    step = float(
+        np.nextafter(np.float32(max(others, first * 2.0**-20, 2.0**-20) / half), np.float32(np.inf))
+    )
     coarser = 0
     # The lowest frequency is the mean of the block, and far larger than all others. A step of its own saves bits of
     # these.
@@ -59,7 +63,8 @@ def packed_range(first: float, others: float, bits: int) -> tuple[float, int]:
 
 
 SAMPLES = 2  # blocks that are measured; one, or four, come to 1 % more bytes, which is chance
-WORTHWHILE = 0.75  # root mean square in steps from which on a coefficient pays; half of it costs 3 %, twice 8 %
+# Root mean square in steps from which on a coefficient pays; half of it costs 3 %, twice 8 %.
+WORTHWHILE = 0.75
 FIRST_LOOK = 160  # frequencies that are measured at first; this only saves time
 
 
@@ -82,7 +87,11 @@ class MeasuredSpectrum:
             known = len(self._magnitudes)
             size = int(np.count_nonzero(self._magnitudes > WORTHWHILE * step))
             # The last eighth is an average over fewer frequencies than there are.
-            if size < known - known // 8 or known == self._size or min(size, known - known // 8) >= most:
+            if (
+                size < known - known // 8
+                or known == self._size
+                or min(size, known - known // 8) >= most
+            ):
                 return max(1, min(size, most))
             self._magnitudes = self._measure(min(2 * known, self._size))
 
@@ -91,7 +100,9 @@ class MeasuredSpectrum:
         energy, count = np.zeros(width), np.zeros(width)
         for block in self._samples:
             # As a key block is made, since a measured block must not depend on others.
-            subspace = block.iterated(cosine_columns(block.size, min(width, block.size)), self._shift)
+            subspace = block.iterated(
+                cosine_columns(block.size, min(width, block.size)), self._shift
+            )
             coefficients = project(subspace, self._positions[block.vertices], subspace.shape[1])
             energy[: block.size] += np.square(coefficients).mean(axis=1)
             count[: block.size] += 1

@@ -27,12 +27,17 @@ class Packed:
     ) -> tuple[int, bytes, Matrix]:
         """c_i, the payload of coefficients, shape (c, 3), and the decoded positions of a chain's present block."""
         # Offset by half the range, as the law has it: the packed integers then need no sign.
-        levels, half = np.rint(coefficients / self._steps(len(coefficients))).astype(np.int64), 1 << (self.bits - 1)
+        levels, half = (
+            np.rint(coefficients / self._steps(len(coefficients))).astype(np.int64),
+            1 << (self.bits - 1),
+        )
         data = pack_coefficients(np.clip(levels + half, 0, 2 * half - 1), self.bits)
         return len(levels), data, self.positions(prediction, dictionary, levels)
 
     def read(self, data: bytes, count: int) -> Integers:
-        return unpack_coefficients(data, self.bits, 3 * count).reshape(-1, 3) - (1 << (self.bits - 1))
+        return unpack_coefficients(data, self.bits, 3 * count).reshape(-1, 3) - (
+            1 << (self.bits - 1)
+        )
 
     def positions(self, prediction: Matrix, dictionary: Basis, levels: Integers) -> Matrix:
         return prediction + transform.reconstruct(dictionary, levels * self._steps(len(levels)))
@@ -81,7 +86,11 @@ class Scheme:
     def fields(self) -> dict[str, Any]:
         """The fields of the header."""
         rules, coding = self.rules, self.coding
-        paper = Constants(bits=coding.bits, coarser=coding.coarser, **{name: getattr(rules, name) for name in ALIKE})
+        paper = Constants(
+            bits=coding.bits,
+            coarser=coding.coarser,
+            **{name: getattr(rules, name) for name in ALIKE},
+        )
         return {
             "blocks": self.blocks.count,
             "step": coding.step,

@@ -64,7 +64,9 @@ class Attempt:
 SIZES, PROMISED_SIZES = RANGES["grid_cell"], (1e-42, 1e30)
 """Of meshes, in their own unit: what numbers of the format hold; and where bounds are numbers of single precision."""
 
-LOOKS = [Contract(WIDEST, look=look) for look in sorted(promise.look for promise in PROMISES.values())]
+LOOKS = [
+    Contract(WIDEST, look=look) for look in sorted(promise.look for promise in PROMISES.values())
+]
 """The coarseness of attributes if a size is promised: that of the first look with which the shape fits."""
 PREPARING = 0.05  # share of the progress before the search begins; measured
 OVER = "eps_h is exceeded in {} of {} blocks: these have as many coefficients as they may have"
@@ -105,7 +107,12 @@ class Encoder:
 
     def __init__(self, mesh: TriangleMesh, options: EncodeOptions | None = None) -> None:
         self.options = options or EncodeOptions()
-        if not (self.options.target or self.options.promise or self.options.is_grid or self.options.sets_coding):
+        if not (
+            self.options.target
+            or self.options.promise
+            or self.options.is_grid
+            or self.options.sets_coding
+        ):
             raise OptionError("preset none needs a target or a bound, such as size or max_error")
         packets.Metadata(mesh.metadata).require_readable()
         mesh.require_sizes(*(SIZES if self.options.promise is None else PROMISED_SIZES))
@@ -118,7 +125,9 @@ class Encoder:
         self._attribute_notes: tuple[str, ...] = ()
         promise, unit = self.options.promise, mesh.metadata.get("unit")
         size = mesh.without_isolated_vertices()[0].diagonal
-        self._doubt = "" if promise is None else promise.doubt(size, unit if isinstance(unit, str) else "")
+        self._doubt = (
+            "" if promise is None else promise.doubt(size, unit if isinstance(unit, str) else "")
+        )
 
     @property
     def trials(self) -> tuple[Event, ...]:
@@ -131,7 +140,11 @@ class Encoder:
         notes = [*self._input.joined.notes]
         notes += self._attribute_notes or [attribute.note for attribute in self._input.carried]
         names = {attribute.name for attribute, _ in self._input.qualities}
-        missing = [attribute.name for attribute in self._input.source.attributes if attribute.name not in names]
+        missing = [
+            attribute.name
+            for attribute in self._input.source.attributes
+            if attribute.name not in names
+        ]
         if missing:
             notes.append(f"left out: {', '.join(missing)}")
         if self.options.paper.bits is not None and self._input.prepared.blocks.count == 1:
@@ -230,7 +243,9 @@ class Encoder:
         if options.grid is not None:
             return rounded(self._input.prepared, options.grid)
         if options.grid_cell is not None:
-            return rounded_to_cells(self._input.prepared, options.grid_cell, options.grid_origin or (0.0, 0.0, 0.0))
+            return rounded_to_cells(
+                self._input.prepared, options.grid_cell, options.grid_origin or (0.0, 0.0, 0.0)
+            )
         with as_of_decoders(options.limits):
             return self._spectral.base(self._spectral.first_step, nearing.within(0.8)).draft
 
@@ -262,7 +277,10 @@ class Encoder:
             self._input, draft = smallest(self._input, contract, nearing)
             attempt = self._judged(draft)
         self._verified(attempt.draft, nearing, contract)
-        require(target.excess(attempt) <= LEAST, f"the target is {target.value:g}, not {target.reached(attempt):g}")
+        require(
+            target.excess(attempt) <= LEAST,
+            f"the target is {target.value:g}, not {target.reached(attempt):g}",
+        )
         return attempt
 
     def _within_error(self, target: Target) -> Contract:
@@ -285,7 +303,9 @@ class Encoder:
         smaller, met = self._finest_attributes(sender, most, nearing)
         if met is not None:
             fitting = [draft for draft in (self._best_of_size(most), smaller) if draft is not None]
-            return self._judged(min(fitting, key=lambda draft: self._input.measured(draft, met)[1] or 0.0))
+            return self._judged(
+                min(fitting, key=lambda draft: self._input.measured(draft, met)[1] or 0.0)
+            )
         if self.options.promise is None:
             draft = self._best_of_size(most)
             if draft is not None:
@@ -307,7 +327,9 @@ class Encoder:
             return None
         return draft
 
-    def _finest_attributes(self, sender: Sent, most: float, nearing: Nearing) -> tuple[Draft | None, Contract | None]:
+    def _finest_attributes(
+        self, sender: Sent, most: float, nearing: Nearing
+    ) -> tuple[Draft | None, Contract | None]:
         """Take attributes as fine as leave room for the shape; return the smallest stream, and the contract if that
         fits."""
         promise, met = self.options.promise, None
@@ -315,7 +337,11 @@ class Encoder:
         if promise is not None:
             loosest, contracts = promise, [promise]
         if sender.carried:
-            contracts += [replace(loosest, look=finer.look) for finer in reversed(LOOKS) if finer.look < loosest.look]
+            contracts += [
+                replace(loosest, look=finer.look)
+                for finer in reversed(LOOKS)
+                if finer.look < loosest.look
+            ]
         smaller: Draft | None = None
         for contract in contracts:
             with suppress(TargetError) if met else nullcontext():
@@ -370,7 +396,9 @@ class Encoder:
         reference, unit = self._reference
         comparison = reference.compare(draft.decoded / unit)
         lengths = {"rms": comparison.rms * unit, "max_error": comparison.max_error * unit}
-        return replace(comparison, **lengths, nmsve_paper_db=decibel(comparison.nmsve * reference.scale * unit))
+        return replace(
+            comparison, **lengths, nmsve_paper_db=decibel(comparison.nmsve * reference.scale * unit)
+        )
 
     def _verified(self, draft: Draft, nearing: Nearing, contract: Contract | None = None) -> Draft:
         """Return the draft, after the decoder has returned the same mesh and it keeps the contract."""
@@ -387,7 +415,9 @@ class Encoder:
             limits, threads = NAMED_LIMITS[self.options.limits](), self.options.threads
             carried = with_turns(self._input.carried, draft.places)
             self._attribute_notes = tuple(attribute.note for attribute in carried)
-            self.decoded = verify(draft, original, carried, self._input.source.metadata, limits, threads)
+            self.decoded = verify(
+                draft, original, carried, self._input.source.metadata, limits, threads
+            )
         require(not broken, f"{contract} was promised, and the decoded mesh has {broken}")
         self._kept_exactly = contract is not None and draft.header.light == EXACT
         nearing.to(1.0)
@@ -400,7 +430,10 @@ class Encoder:
     @cached_property
     def _reference(self) -> tuple[Reference, float]:
         """The mesh over a power of two, by which no face gets or loses an area; and the power."""
-        original, place = self._input.source, self._input.joined.first[self._input.prepared.coding_order]
+        original, place = (
+            self._input.source,
+            self._input.joined.first[self._input.prepared.coding_order],
+        )
         unit = math.ldexp(0.5, math.frexp(self._input.prepared.units.scale)[1])
         return Reference(original.positions[place] / unit, self.mesh.faces), unit
 

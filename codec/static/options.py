@@ -38,7 +38,11 @@ RANGES: dict[str, tuple[float, float]] = {
 }
 
 
-PROMISES = {row.name: Contract(row.farthest, look=row.look, by_part=row.by_part) for row in PRESET_ROWS if row.farthest}
+PROMISES = {
+    row.name: Contract(row.farthest, look=row.look, by_part=row.by_part)
+    for row in PRESET_ROWS
+    if row.farthest
+}
 BALANCED = PROMISES[DEFAULT]  # the promise without options
 
 
@@ -226,14 +230,22 @@ class EncodeOptions:
             self.target._require_kind(TARGETS, "a mesh")
         object.__setattr__(self, "attributes", checked_qualities(self.attributes))
         if self.paper.bits is not None and self.paper.doi is None and self.target is not None:
-            raise OptionError("with bits, a target is reached by doi; it excludes keep and coefficients")
-        if self.exact and (self.grid is not None or self.grid_cell is not None or self.effort == "quick"):
+            raise OptionError(
+                "with bits, a target is reached by doi; it excludes keep and coefficients"
+            )
+        if self.exact and (
+            self.grid is not None or self.grid_cell is not None or self.effort == "quick"
+        ):
             raise OptionError("exact, grid and effort quick exclude each other")
         if self.grid is not None and self.grid_cell is not None:
             raise OptionError("give a grid by its bits or by the length of its cells, not both")
         if self.grid_origin is not None and self.grid_cell is None:
-            raise OptionError("a grid with a given origin needs the length of its cells, too: grid_cell")
-        if self.grid_origin is not None and not all(abs(number) <= 1e290 for number in self.grid_origin):
+            raise OptionError(
+                "a grid with a given origin needs the length of its cells, too: grid_cell"
+            )
+        if self.grid_origin is not None and not all(
+            abs(number) <= 1e290 for number in self.grid_origin
+        ):
             raise OptionError(f"the origin of a grid must be within 1e290, not {self.grid_origin}")
         if self.is_grid and (self.target is not None or self.sets_coding):
             raise OptionError("a grid excludes targets and options of blocks")
@@ -253,7 +265,9 @@ class EncodeOptions:
         if self.is_grid:
             return "fine"
         farthest = (
-            self.promise.farthest if self.promise is not None and not self.promise.absolute else BALANCED.farthest
+            self.promise.farthest
+            if self.promise is not None and not self.promise.absolute
+            else BALANCED.farthest
         )
         return "fine" if farthest <= FINE else "small" if farthest >= SMALL else "balanced"
 
@@ -270,7 +284,9 @@ class EncodeOptions:
     @property
     def sets_coding(self) -> bool:
         """Whether any option of `CODING` is given."""
-        return any(getattr(self, name, getattr(self.paper, name, None)) is not None for name in CODING)
+        return any(
+            getattr(self, name, getattr(self.paper, name, None)) is not None for name in CODING
+        )
 
     @property
     def growth(self) -> float:
@@ -285,9 +301,13 @@ class EncodeOptions:
 
 def changed(options: EncodeOptions, **changes: Any) -> EncodeOptions:
     """The options with fields changed, those of `Paper` among them; a given c replaces one that follows the error."""
-    if "doi" not in changes and (changes.get("keep") is not None or changes.get("coefficients") is not None):
+    if "doi" not in changes and (
+        changes.get("keep") is not None or changes.get("coefficients") is not None
+    ):
         changes["doi"] = None
-    of_paper = {field.name: changes.pop(field.name) for field in fields(Paper) if field.name in changes}
+    of_paper = {
+        field.name: changes.pop(field.name) for field in fields(Paper) if field.name in changes
+    }
     if of_paper:
         changes["paper"] = replace(changes.get("paper", options.paper), **of_paper)
     return replace(options, **changes)
@@ -299,7 +319,8 @@ EPS_H = 0.3
 
 CODING = ("step", "keep", "coefficients", "bits", "doi", "smoothing")
 """Options that say how blocks are coded, and not what shall come of it."""
-FINE, SMALL = 0.001, 0.02  # promises of positions, from which on attributes are kept better, or less well
+# Promises of positions, from which on attributes are kept better, or less well.
+FINE, SMALL = 0.001, 0.02
 STEP = 0.004  # of blocks alone
 PAPER_OVERLAP = 1.15
 
@@ -308,11 +329,14 @@ _WITHOUT_PROMISE = {
     "lossless": EncodeOptions(exact=True, attributes={"*": "exact"}),
     "none": EncodeOptions(block_size=1500, contract=None),
     "paper": EncodeOptions(
-        paper=Paper(bits=12, partition="metis", power=2, doi=(0.9 * EPS_H, EPS_H)), key_interval=0, contract=None
+        paper=Paper(bits=12, partition="metis", power=2, doi=(0.9 * EPS_H, EPS_H)),
+        key_interval=0,
+        contract=None,
     ),
 }
 PRESETS: dict[str, EncodeOptions] = {
-    row.name: _WITHOUT_PROMISE.get(row.name) or EncodeOptions(contract=PROMISES[row.name]) for row in PRESET_ROWS
+    row.name: _WITHOUT_PROMISE.get(row.name) or EncodeOptions(contract=PROMISES[row.name])
+    for row in PRESET_ROWS
 }
 """Names for what most users want, each a promise; "balanced" is the default, "none" promises nothing but what is
 asked for beside it, and "paper" is the codec of the paper. Larger blocks are smaller files and slower to decode."""

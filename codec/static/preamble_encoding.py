@@ -20,7 +20,14 @@ from bsm.bitstream.errors import MeshError, OptionError, TargetError, counted
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Faces, Indices, Levels, Matrix, Order, Positions, sealed
 from bsm.codec.blocks import overlap
-from bsm.codec.blocks.overlap import Blocks, Partition, block_size, derive_partition, grow_blocks, metis_partition
+from bsm.codec.blocks.overlap import (
+    Blocks,
+    Partition,
+    block_size,
+    derive_partition,
+    grow_blocks,
+    metis_partition,
+)
 from bsm.codec.geometry.graph import Graph, components, graph_of_faces
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import Reference
@@ -62,11 +69,15 @@ def join(mesh: TriangleMesh, *, keep: bool, exact: bool = False) -> JoinedMesh:
     if exact:
         mesh, notes = _single(mesh)
     # Exact streams keep the sign of zero, so positions that differ only there stay two.
-    mesh_of_joined = joined(mesh, group_rows(mesh.positions.view(np.int64) if exact else mesh.positions), keep=keep)
+    mesh_of_joined = joined(
+        mesh, group_rows(mesh.positions.view(np.int64) if exact else mesh.positions), keep=keep
+    )
     return replace(mesh_of_joined, notes=(*notes, *mesh_of_joined.notes))
 
 
-def joined(mesh: TriangleMesh, index: Indices, *, keep: bool, keep_loose: bool = True) -> JoinedMesh:
+def joined(
+    mesh: TriangleMesh, index: Indices, *, keep: bool, keep_loose: bool = True
+) -> JoinedMesh:
     # The object in C keeps what joining finds. Connectivity, order and attributes are coded from it without another
     # pass.
     notes, splits, coder = [], None, GivenMesh(mesh.faces, index)
@@ -81,14 +92,25 @@ def joined(mesh: TriangleMesh, index: Indices, *, keep: bool, keep_loose: bool =
     if loose and not (keep and keep_loose):
         notes.append(f"left out {counted(vertices=loose)} that no face uses")
     unchanged = (
-        len(first) == len(mesh.positions) and len(coded_faces) == len(mesh.faces) and bool((np.diff(first) > 0).all())
+        len(first) == len(mesh.positions)
+        and len(coded_faces) == len(mesh.faces)
+        and bool((np.diff(first) > 0).all())
     )
     if unchanged:
         coded_mesh = TriangleMesh(mesh.positions, mesh.faces)  # which share the arrays
     else:
-        coded_mesh = TriangleMesh(sealed(mesh.positions[first]), sealed(index[mesh.faces[coded_faces]]))
+        coded_mesh = TriangleMesh(
+            sealed(mesh.positions[first]), sealed(index[mesh.faces[coded_faces]])
+        )
     return JoinedMesh(
-        coded_mesh, index, first.astype(np.int64), coded_faces, splits, tuple(notes), coder, mesh.positions
+        coded_mesh,
+        index,
+        first.astype(np.int64),
+        coded_faces,
+        splits,
+        tuple(notes),
+        coder,
+        mesh.positions,
     )
 
 
@@ -102,25 +124,38 @@ def _single(mesh: TriangleMesh) -> tuple[TriangleMesh, tuple[str, ...]]:
         # Files hold single precision nearly always, and then nothing is lost here.
         single = mesh.positions.astype(np.float32).astype(np.float64)
     if not np.isfinite(single).all():
-        raise MeshError("a coordinate is beyond the range of single precision, which lossless keeps; scale the mesh")
+        raise MeshError(
+            "a coordinate is beyond the range of single precision, which lossless keeps; scale the mesh"
+        )
     error = float(np.abs(single - mesh.positions).max(initial=0.0))
     if error == 0.0:
         return mesh, ()
-    edges = np.linalg.norm(mesh.positions[mesh.faces[:, 0]] - mesh.positions[mesh.faces[:, 1]], axis=1)
-    diagonal, edge = mesh.diagonal, float(np.median(edges[edges > 0.0])) if edges.any() else math.inf
+    edges = np.linalg.norm(
+        mesh.positions[mesh.faces[:, 0]] - mesh.positions[mesh.faces[:, 1]], axis=1
+    )
+    diagonal, edge = (
+        mesh.diagonal,
+        float(np.median(edges[edges > 0.0])) if edges.any() else math.inf,
+    )
     # Of the edge as well: a mesh far from the origin, or a long one with fine detail, loses its detail before its
     # diagonal notices.
     if error > LOST_OF_DIAGONAL * diagonal or error > LOST_OF_EDGE * edge:
         # Advice that can be typed in: a power of ten that is fine enough, and an origin of whole numbers.
-        cell = 10.0 ** math.ceil(math.log10((float(np.ptp(mesh.positions, axis=0).max()) or error) / MOST_CELLS))
-        origin = ",".join(f"{value:.12g}" for value in np.floor(mesh.positions.min(axis=0)).tolist())
+        cell = 10.0 ** math.ceil(
+            math.log10((float(np.ptp(mesh.positions, axis=0).max()) or error) / MOST_CELLS)
+        )
+        origin = ",".join(
+            f"{value:.12g}" for value in np.floor(mesh.positions.min(axis=0)).tolist()
+        )
         raise TargetError(
             f"lossless keeps single precision, which moves a vertex by {error:.3g}, "
             f"{100 * error / (diagonal or error):.2g} % of the diagonal; a grid is more exact: in place of the preset, "
             f"give --grid-cell {cell:g} --grid-origin={origin}"
         )
     changed = int((single != mesh.positions).sum())
-    return replace(mesh, positions=single), (f"{changed} coordinates were rounded to single precision, by {error:.2g}",)
+    return replace(mesh, positions=single), (
+        f"{changed} coordinates were rounded to single precision, by {error:.2g}",
+    )
 
 
 # Below these, an encoder need not try blocks at all.
@@ -160,7 +195,9 @@ class Prepared:
     def of_coded(self, corners: Indices) -> Indices:
         """Return the values of corners of joined faces, shape (m, 3), in coding order."""
         # The coder turns faces so that they begin with the vertex that it met first. Values of corners must follow.
-        return np.take_along_axis(corners[self.coding_faces], (self.first_corners[:, None] + np.arange(3)) % 3, axis=1)
+        return np.take_along_axis(
+            corners[self.coding_faces], (self.first_corners[:, None] + np.arange(3)) % 3, axis=1
+        )
 
     @cached_property
     def positions(self) -> Matrix:
@@ -180,7 +217,10 @@ class Prepared:
         """Whether most vertices are in components that are large enough to have any."""
         # A thousand screws have a million vertices, and none of them has low frequencies.
         sizes = np.bincount(self.components)
-        return self.graph.size >= FEW_VERTICES and sizes[sizes >= SMALL_COMPONENT].sum() >= 0.9 * self.graph.size
+        return (
+            self.graph.size >= FEW_VERTICES
+            and sizes[sizes >= SMALL_COMPONENT].sum() >= 0.9 * self.graph.size
+        )
 
     @cached_property
     def partition(self) -> Partition:
@@ -193,7 +233,9 @@ class Prepared:
         size = block_size(self.partition, self.parts.overlap)
         # Decoders refuse more copies, so that a short stream cannot ask for much memory.
         if parts * size > constant("MOST_COPIES") * vertices + constant("FREE_COPIES"):
-            raise OptionError(f"{parts} blocks of {size} of {vertices} vertices overlap too much; take a smaller one")
+            raise OptionError(
+                f"{parts} blocks of {size} of {vertices} vertices overlap too much; take a smaller one"
+            )
         return size
 
     @cached_property
@@ -244,11 +286,20 @@ class Parts:
         """The labels of parts, where a decoder cannot derive them."""
         if not self.metis:
             return ()
-        return (packets.Labels(Cut(graph.offsets, graph.neighbors).write(partition.labels, partition.parts)),)
+        return (
+            packets.Labels(
+                Cut(graph.offsets, graph.neighbors).write(partition.labels, partition.parts)
+            ),
+        )
 
 
 def prepare(
-    joined: JoinedMesh, parts: Parts, *, keep_order: bool, light: bool = False, congruence: bool = False
+    joined: JoinedMesh,
+    parts: Parts,
+    *,
+    keep_order: bool,
+    light: bool = False,
+    congruence: bool = False,
 ) -> Prepared:
     """Code the connectivity of a mesh."""
     mesh, connectivity = joined.mesh, EncodedConnectivity(*joined.coding.code())
@@ -297,7 +348,12 @@ class Draft:
         writer, may_be_brief = SectionWriter(), self.may_be_brief and not self.header.light
         # Framing takes about thirty bytes, a tenth of a stream of a small part.
         brief = write_brief(self.header, self.body) if may_be_brief else None
-        later = brief is not None, self.header.congruence > 0, self.header.onorm > 0, any(self.header.turn)
+        later = (
+            brief is not None,
+            self.header.congruence > 0,
+            self.header.onorm > 0,
+            any(self.header.turn),
+        )
         # The lowest version that knows everything in the stream, so that the oldest decoders still read what they can.
         minor = 3 if self.header.swift else 2 if self.header.base else int(any(later))
         yield writer.start(minor)

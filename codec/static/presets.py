@@ -31,7 +31,9 @@ def _rows() -> tuple[PresetRow, ...]:
     _, *lines = csv.reader(text.splitlines())
     rows = []
     for line in lines:
-        farthest, look, by_part, frame_look, frame_step = (float(number or 0) for number in line[1:-1])
+        farthest, look, by_part, frame_look, frame_step = (
+            float(number or 0) for number in line[1:-1]
+        )
         rows.append(PresetRow(line[0], farthest, look, by_part, frame_look, frame_step, line[-1]))
     return tuple(rows)
 

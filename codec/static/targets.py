@@ -66,13 +66,19 @@ class Contract:
                 f"{self.farthest:.4g} times it; a number without a unit is a share of the diagonal: 0.001 is 0.1%"
             )
         if not 0.0 < self.angle <= ANY_ANGLE:
-            raise OptionError(f"a mean angle must be within 0 to {ANY_ANGLE:g} degrees, not {self.angle:g}")
+            raise OptionError(
+                f"a mean angle must be within 0 to {ANY_ANGLE:g} degrees, not {self.angle:g}"
+            )
         if not self.visual > 0.0:
             raise OptionError(f"a visual error must be above 0, not {self.visual:g}")
         if not self.by_part > 0.0:
-            raise OptionError(f"a bound on the vertices of a part must be above 0, not {self.by_part:g}")
+            raise OptionError(
+                f"a bound on the vertices of a part must be above 0, not {self.by_part:g}"
+            )
         if not self.look > 0.0:
-            raise OptionError(f"a look must be above 0, not {self.look:g}: 1 looks the same, 3 is a preview")
+            raise OptionError(
+                f"a look must be above 0, not {self.look:g}: 1 looks the same, 3 is a preview"
+            )
 
     def reach(self, diagonal: float, unit: float) -> float:
         """Return the largest error of a vertex of a mesh of this diagonal, in multiples of `unit`."""
@@ -117,7 +123,11 @@ class Contract:
 
 def vertex_error(value: float, absolute: bool) -> str:
     """A bound on vertices in words: a length, or a fraction of the diagonal."""
-    return f"vertex error {value:.4g}" if absolute else f"vertex error {100.0 * value:.4g} % of the diagonal"
+    return (
+        f"vertex error {value:.4g}"
+        if absolute
+        else f"vertex error {100.0 * value:.4g} % of the diagonal"
+    )
 
 
 TARGETS = ("nmsve_db", "theta_deg", "bpv", "size")
@@ -177,11 +187,15 @@ class Target:
         self._require_kind(tuple(UNITS), "a mesh or sequence")
         low, high = (-300.0, 300.0) if self.kind == "nmsve_db" else (1e-30, 1e30)
         if not low <= self.value <= high:
-            raise OptionError(f"{self.worded(self.value)} cannot be a target: those from {low:g} to {high:g} can")
+            raise OptionError(
+                f"{self.worded(self.value)} cannot be a target: those from {low:g} to {high:g} can"
+            )
 
     def _require_kind(self, kinds: tuple[str, ...], what: str) -> None:
         if self.kind not in kinds:
-            raise OptionError(f"a target of {what} must be one of {', '.join(kinds)}, not {self.kind!r}")
+            raise OptionError(
+                f"a target of {what} must be one of {', '.join(kinds)}, not {self.kind!r}"
+            )
 
     def reached(self, outcome: Attempted) -> float:
         """Return the outcome's value of the target's measure."""
@@ -234,7 +248,11 @@ Found = TypeVar("Found", bound=Attempted)
 
 
 def search_step(
-    attempt: Callable[[float], Found], target: Target, first: float, finest: float, rise: float = 1.0
+    attempt: Callable[[float], Found],
+    target: Target,
+    first: float,
+    finest: float,
+    rise: float = 1.0,
 ) -> Found:
     """Find a step whose outcome meets the target."""
     outcomes: list[tuple[float, Found]] = []

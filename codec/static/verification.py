@@ -38,13 +38,18 @@ class AsGiven:
     @property
     def loose(self) -> Positions:
         """Positions of vertices that no face uses, where the stream has them, as it has all others."""
-        return self.joined.original_positions[self.vertex_order[self.joined.index[self.vertex_order] < 0]]
+        return self.joined.original_positions[
+            self.vertex_order[self.joined.index[self.vertex_order] < 0]
+        ]
 
     def matched(self, faces: Faces, vertices: int) -> Order:
         """Return the coded vertex of each of the decoder's, -1 for loose ones, whose faces are `faces`."""
         coded = self.prepared.mesh.faces
         require(faces.shape == coded.shape, f"decoded {len(faces)} of {len(coded)} faces")
-        require(vertices == len(self.vertex_order), f"decoded {vertices} of {len(self.vertex_order)} vertices")
+        require(
+            vertices == len(self.vertex_order),
+            f"decoded {vertices} of {len(self.vertex_order)} vertices",
+        )
         ordered = self.prepared.of_coded(faces) if self.prepared.order else faces
         coded_of = np.full(vertices, -1, np.int64)
         # If two faces disagreed about a vertex, the second would win; the next line finds that.
@@ -62,10 +67,15 @@ class AsGiven:
             actual = self.prepared.vertex_order[faces]
         else:  # copies of a vertex lie at its place
             corners = self.source.faces[self.joined.coded_faces][self.prepared.face_order]
-            expected, actual = self.source.positions[corners], self.source.positions[self.vertex_order[faces]]
+            expected, actual = (
+                self.source.positions[corners],
+                self.source.positions[self.vertex_order[faces]],
+            )
         # Without a kept order, a face may begin with any of its corners, but never be turned over.
         for turn in range(1 if self.prepared.order else 3):
-            differs = (np.roll(actual, turn, axis=1) != expected).any(axis=tuple(range(1, actual.ndim)))
+            differs = (np.roll(actual, turn, axis=1) != expected).any(
+                axis=tuple(range(1, actual.ndim))
+            )
             expected, actual = expected[differs], actual[differs]
         require(not len(expected), "the decoded order of vertices or faces differs")
 
@@ -95,7 +105,9 @@ def verify(
     return decoded
 
 
-def require_positions(decoded: Positions, expected: Positions, matched: Order, loose: Positions) -> None:
+def require_positions(
+    decoded: Positions, expected: Positions, matched: Order, loose: Positions
+) -> None:
     """Require positions of the closed loop, shape (n, 3), bit for bit, and those of vertices that no face uses."""
     in_order, unused = expected[matched], matched < 0
     require(int(unused.sum()) == len(loose), "the decoded vertices that no face uses differ")
@@ -104,7 +116,10 @@ def require_positions(decoded: Positions, expected: Positions, matched: Order, l
 
 
 def require_attributes(
-    decoded: Sequence[Attribute], carried: Sequence[PreparedAttribute], faces: Faces, original: AsGiven
+    decoded: Sequence[Attribute],
+    carried: Sequence[PreparedAttribute],
+    faces: Faces,
+    original: AsGiven,
 ) -> None:
     """Require attributes of the closed loop at corners and faces, except for rounding."""
     require(len(decoded) == len(carried), f"decoded {len(decoded)} of {len(carried)} attributes")
@@ -112,14 +127,18 @@ def require_attributes(
     for attribute, prepared_attribute in zip(decoded, carried, strict=True):
         declared = prepared_attribute.declaration
         name = f"attribute {declared.name!r}"
-        same = attribute.name == declared.name and attribute.semantic == SEMANTICS[declared.semantic]
+        same = (
+            attribute.name == declared.name and attribute.semantic == SEMANTICS[declared.semantic]
+        )
         require(
             same and attribute.values.shape[1:] == (declared.components,),
             f"{name} was decoded with a different name or type",
         )
         # Decoders compute these in their own ways, so that their last bits are open.
         if declared.coding == RECOMPUTED:
-            require(bool(np.isfinite(attribute.values).all()), f"{name} is not finite after decoding")
+            require(
+                bool(np.isfinite(attribute.values).all()), f"{name} is not finite after decoding"
+            )
             continue
         values = prepared_attribute.values
         if declared.domain == FACE:
@@ -140,7 +159,14 @@ def _alike(actual: npt.NDArray[Any], expected: npt.NDArray[Any]) -> bool:
     if actual.dtype.kind != "f":
         return bool((actual == expected).all())
     # Floats of attributes come from dequantization in double precision, where one rounding may differ.
-    return bool(np.allclose(actual, expected, rtol=ROUNDING, atol=ROUNDING * float(np.abs(expected).max(initial=0.0))))
+    return bool(
+        np.allclose(
+            actual,
+            expected,
+            rtol=ROUNDING,
+            atol=ROUNDING * float(np.abs(expected).max(initial=0.0)),
+        )
+    )
 
 
 def require(holds: bool, problem: str) -> None:

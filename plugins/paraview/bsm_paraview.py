@@ -9,7 +9,9 @@ from paraview.util.vtkAlgorithm import smdomain, smhint, smproperty, smproxy
 from bsm.vtk import StreamSource
 
 
-@smproxy.reader(name="BSMReader", label="BSM", extensions="bsm", file_description="BSM meshes and sequences")
+@smproxy.reader(
+    name="BSMReader", label="BSM", extensions="bsm", file_description="BSM meshes and sequences"
+)
 class BSMReader(StreamSource):
     """The source, registered with ParaView."""
 

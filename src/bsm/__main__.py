@@ -5,7 +5,9 @@ from __future__ import annotations
 import _thread
 import gc
 import os
-import signal  # an interrupt before `run` prints a traceback, so no module that loads slowly is imported up here
+
+# An interrupt before `run` prints a traceback, so no module that loads slowly is imported up here.
+import signal
 import sys
 import time
 import warnings

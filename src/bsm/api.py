@@ -45,13 +45,17 @@ _Function = TypeVar("_Function", bound=Callable[..., Any])
 def _with_known_keywords(function: _Function) -> _Function:
     """Let a function refuse keywords that it does not have by an `ArgumentError` with advice."""
     parameters = signature(function).parameters
-    keywords = [name for name, parameter in parameters.items() if parameter.default is not Parameter.empty]
+    keywords = [
+        name for name, parameter in parameters.items() if parameter.default is not Parameter.empty
+    ]
 
     @wraps(function)
     def call(*values: Any, **named_values: Any) -> Any:
         for name in named_values:
             if name not in parameters:
-                raise ArgumentError(f"{function.__name__} has no keyword {name}{_advice_on(name, keywords)}")
+                raise ArgumentError(
+                    f"{function.__name__} has no keyword {name}{_advice_on(name, keywords)}"
+                )
         return function(*values, **named_values)
 
     return cast("_Function", call)
@@ -148,7 +152,12 @@ def _wishes(
     from bsm.encoding.given import Wishes
 
     name = str(source) if isinstance(source, (str, os.PathLike)) else ""
-    shared: dict[str, Any] = {"keywords": keywords, "options": options, "provenance": provenance, **more}
+    shared: dict[str, Any] = {
+        "keywords": keywords,
+        "options": options,
+        "provenance": provenance,
+        **more,
+    }
     wishes = Wishes(source=name, metadata=checked_metadata(metadata), **shared)
     wishes.check()
     return wishes
@@ -222,14 +231,21 @@ def encode_many(
     checked_whole("jobs", jobs, 0)
     entries = checked_metadata(metadata)
     Wishes(keywords=keywords, metadata=entries).check()
-    run = Batch(jobs=jobs, dask=dask, report=None if report is None else named(report), resume=resume)
+    run = Batch(
+        jobs=jobs, dask=dask, report=None if report is None else named(report), resume=resume
+    )
     # With a slash, so that the plan takes it for a folder even if it is not there yet.
     folder = None if target is None else named(target).rstrip("/") + "/"
     planned = plan([named(source) for source in sources], folder, lambda _: ".bsm")
     options: dict[str, Any] = {**keywords}
     # Processes side by side with all threads each would fight for the cores.
     threads = options.pop("threads", 1 if run.side_by_side and len(planned) > 1 else None)
-    more: dict[str, Any] = {"metadata": entries, "options": options, "simplify": simplify, "provenance": provenance}
+    more: dict[str, Any] = {
+        "metadata": entries,
+        "options": options,
+        "simplify": simplify,
+        "provenance": provenance,
+    }
     job = EncodeJob(force=overwrite, quiet=True, threads=threads, **more)
     return run_many(run, job, Console(quiet=True, heard=progress), encode_one, planned)
 
@@ -506,7 +522,11 @@ def decode_frames(
 
 @_with_known_keywords
 def decode_sequence(
-    stream: Source, *, limits: Limits | str = DEFAULT_LIMITS, threads: int | None = None, progress: Heard = None
+    stream: Source,
+    *,
+    limits: Limits | str = DEFAULT_LIMITS,
+    threads: int | None = None,
+    progress: Heard = None,
 ) -> tuple[Positions, Faces]:
     """Restore an animated mesh.
 
@@ -547,7 +567,9 @@ def decode_sequence(
 
 
 @_with_known_keywords
-def load(source: Source, *, limits: Limits | str = DEFAULT_LIMITS, format: str | None = None) -> TriangleMesh:
+def load(
+    source: Source, *, limits: Limits | str = DEFAULT_LIMITS, format: str | None = None
+) -> TriangleMesh:
     """Read a mesh from a mesh file or a stream.
 
     `read_mesh` also returns notes on changes and losses.
@@ -640,9 +662,13 @@ def save(
             error.strerror = "the file exists already; overwrite=True replaces it"
             raise
     if not hasattr(path, "write"):
-        raise ArgumentError(f"a path is expected, or an open binary file and its format, not {type(path).__name__}")
+        raise ArgumentError(
+            f"a path is expected, or an open binary file and its format, not {type(path).__name__}"
+        )
     if format is None:
-        raise ArgumentError('an open file has no suffix that tells the format; add one, such as format="ply"')
+        raise ArgumentError(
+            'an open file has no suffix that tells the format; add one, such as format="ply"'
+        )
     written = _as_file(mesh, f"mesh.{format}", keywords)
     path.write(written.data)
     return (*written.left_out, *written.beside)
@@ -717,8 +743,12 @@ def denoise(
     chosen = chosen_options(options, DenoiseOptions, keywords, denoise_options)
     with watched("denoising", progress) as heard:
         original = as_mesh(mesh)
-        clean = denoise_mesh(original, chosen, goal=goal, strength=strength, force=force, progress=heard.stage)
-    if stale := [attribute.name for attribute in original.attributes if attribute not in clean.attributes]:
+        clean = denoise_mesh(
+            original, chosen, goal=goal, strength=strength, force=force, progress=heard.stage
+        )
+    if stale := [
+        attribute.name for attribute in original.attributes if attribute not in clean.attributes
+    ]:
         warn([f"left out, for they fit no longer: {', '.join(stale)}"])
     return clean
 
@@ -758,7 +788,9 @@ def compare(original: Any, decoded: Any, *, order: npt.ArrayLike | None = None) 
     pair_as_given = list(map(as_mesh, (original, decoded)))
     first, second = (mesh.without_isolated_vertices()[0] for mesh in pair_as_given)
     return compare_meshes(
-        first, second, pair(first, second, None if order is None else order_of_used(order, *pair_as_given))
+        first,
+        second,
+        pair(first, second, None if order is None else order_of_used(order, *pair_as_given)),
     )
 
 

@@ -21,7 +21,10 @@ from bsm.ground.exits import EXITS, USAGE, Terminated, behind, exit_of, is_expec
 from bsm.ground.synonyms import OPTIONS, advice_on_option
 
 _SUMMARIES = Path(__file__).with_name("commands") / "commands.txt"
-_EXAMPLES = [line.split(": ", 1) for line in (_SUMMARIES.parent / "examples.txt").read_text("utf-8").splitlines()]
+_EXAMPLES = [
+    line.split(": ", 1)
+    for line in (_SUMMARIES.parent / "examples.txt").read_text("utf-8").splitlines()
+]
 COMMANDS = dict(line.split(": ", 1) for line in _SUMMARIES.read_text("utf-8").splitlines())
 FILES = (
     *("IN", "MESH", "SCENE", "A", "B", "FOLDER", "OUT", "OUT.glb"),
@@ -72,7 +75,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         error = behind(raised)
         if not is_expected(error):
             raise
-        report_error(error, as_json=as_json, options=options, advice=_advice_on_damage(words, error))
+        report_error(
+            error, as_json=as_json, options=options, advice=_advice_on_damage(words, error)
+        )
         return exit_of(error).code
 
 
@@ -85,7 +90,9 @@ def _advice_on_damage(words: Sequence[str], error: BaseException) -> str:
     return "--tolerant decodes what does not need the damaged part"
 
 
-def named_files(command: str, parser: "Parser", args: argparse.Namespace) -> tuple[list[str], list[str]]:
+def named_files(
+    command: str, parser: "Parser", args: argparse.Namespace
+) -> tuple[list[str], list[str]]:
     """Return the files that a command line reads, and those that it writes."""
     named: tuple[list[str], list[str]] = [], []
     written = _WRITTEN | ({"permutation"} if command == "encode" else set())
@@ -98,17 +105,25 @@ def named_files(command: str, parser: "Parser", args: argparse.Namespace) -> tup
             )
         named[action.dest in written].extend(names)
     # Of folders that are searched, the files that are found count.
-    reads = [name for name in named[0] if not getattr(args, "recursive", False) or not os.path.isdir(name)]
+    reads = [
+        name
+        for name in named[0]
+        if not getattr(args, "recursive", False) or not os.path.isdir(name)
+    ]
     return reads, [name for name in named[1] if not name.endswith("/") and not os.path.isdir(name)]
 
 
 def command_parser(name: str) -> "Parser":
-    return _complete(Parser(prog=f"bsm {name}", parents=[_common(name)], description=_sentence(name)), name)
+    return _complete(
+        Parser(prog=f"bsm {name}", parents=[_common(name)], description=_sentence(name)), name
+    )
 
 
 def program_parser(*, complete: bool = True) -> "Parser":
     """The parser of the program; with `complete` it also knows what each command takes."""
-    codes = "\n".join(f"  {row.code:>3}  {row.meaning}" for row in sorted(EXITS, key=lambda row: row.code))
+    codes = "\n".join(
+        f"  {row.code:>3}  {row.meaning}" for row in sorted(EXITS, key=lambda row: row.code)
+    )
     parser = Parser(
         prog="bsm",
         description="Compress, decode and compare triangle meshes and moving meshes.",
@@ -117,7 +132,9 @@ def program_parser(*, complete: bool = True) -> "Parser":
     parser.add_argument("--version", action="store_true", help="show the version and exit")
     commands = parser.add_subparsers(metavar="COMMAND")
     for name, summary in COMMANDS.items():
-        command = commands.add_parser(name, parents=[_common(name)], help=summary, description=_sentence(name))
+        command = commands.add_parser(
+            name, parents=[_common(name)], help=summary, description=_sentence(name)
+        )
         if complete:
             _complete(command, name)
     return parser
@@ -142,7 +159,10 @@ def _common(name: str) -> "Parser":
     does = argparse.SUPPRESS if name in _WITHOUT_FILES else f"overwrite files{harm}"
     common.add_argument("-f", "--force", action="store_true", help=does)
     common.add_argument(
-        "-q", "--quiet", action="store_true", help="print no notes, only errors and the results on standard output"
+        "-q",
+        "--quiet",
+        action="store_true",
+        help="print no notes, only errors and the results on standard output",
     )
     return common
 
@@ -180,7 +200,8 @@ class Parser(argparse.ArgumentParser):
 
     def __init__(self, **keywords: Any) -> None:
         super().__init__(**{"formatter_class": Formatter, **keywords})
-        self._negative_number_matcher = re.compile(r"-[\d.][\d.,e+-]*$")  # points and boxes begin with numbers, too
+        # Points and boxes begin with numbers, too.
+        self._negative_number_matcher = re.compile(r"-[\d.][\d.,e+-]*$")
 
     @property
     def settings(self) -> dict[str, str]:
@@ -195,9 +216,13 @@ class Parser(argparse.ArgumentParser):
         used = self.add_argument_group("options that are used most")
         moved = [self._option_string_actions[option] for option in options]
         for group in (usual, *groups):
-            group._group_actions[:] = [action for action in group._group_actions if action not in moved]
+            group._group_actions[:] = [
+                action for action in group._group_actions if action not in moved
+            ]
         used._group_actions[:], usual.title = moved, "all commands, inputs and outputs"
-        with_presets = [group for group in groups if group.description and "preset" in group.description]
+        with_presets = [
+            group for group in groups if group.description and "preset" in group.description
+        ]
         rest = [group for group in groups if group not in with_presets]
         self._action_groups[:] = [positionals, used, *with_presets, usual, *rest]
 
@@ -206,8 +231,14 @@ class Parser(argparse.ArgumentParser):
         return super().format_help()
 
     def _inputs(self) -> str:
-        inputs = [action for action in self._actions if not action.option_strings and action.nargs != argparse.PARSER]
-        names = "".join(f" {action.metavar}{'...' if action.nargs in ('+', '*') else ''}" for action in inputs)
+        inputs = [
+            action
+            for action in self._actions
+            if not action.option_strings and action.nargs != argparse.PARSER
+        ]
+        names = "".join(
+            f" {action.metavar}{'...' if action.nargs in ('+', '*') else ''}" for action in inputs
+        )
         commands = any(action.nargs == argparse.PARSER for action in self._actions)
         return " COMMAND ..." if commands else f"{names} [options]"
 
@@ -215,18 +246,27 @@ class Parser(argparse.ArgumentParser):
         words_before_dashes = words[: words.index("--") if "--" in words else None]
         for option, value in pairwise(words_before_dashes):
             action = self._option_string_actions.get(option)
-            if action is not None and action.nargs == 0 and NUMBER.fullmatch(value) and not os.path.exists(value):
+            if (
+                action is not None
+                and action.nargs == 0
+                and NUMBER.fullmatch(value)
+                and not os.path.exists(value)
+            ):
                 self.error(f"{option} takes no value, and {value} is not a file")
         for word in words_before_dashes:
             known = {word[:2], word.partition("=")[0]} & self._option_string_actions.keys()
             # A glob such as *.ply may give a file that begins with a dash.
             if word.startswith("-") and not known and os.path.exists(word):
-                self.error(f"{word} looks like an option; name the file as {shlex.quote(f'./{word}')}")
+                self.error(
+                    f"{word} looks like an option; name the file as {shlex.quote(f'./{word}')}"
+                )
             name = word.partition("=")[0]
             if word in OPTIONS and word not in self._option_string_actions:
                 self._refuse_option(word)
             # Said here, since argparse would first ask for arguments that are required.
-            if name.startswith("--") and not any(option.startswith(name) for option in self._option_string_actions):
+            if name.startswith("--") and not any(
+                option.startswith(name) for option in self._option_string_actions
+            ):
                 self._refuse_option(name)
         # argparse forgets a "--" between the two passes that mixed words take it.
         parse = self.parse_known_args if "--" in words else self.parse_known_intermixed_args
@@ -242,12 +282,18 @@ class Parser(argparse.ArgumentParser):
     def _refuse_option(self, name: str) -> NoReturn:
         """End with an error that names an option of this command, if there is one for the word."""
         advice = advice_on_option(name, self._offered)
-        self.error(f"unknown option {name}{f'; instead: {advice}' if advice else self._advice(name)}")
+        self.error(
+            f"unknown option {name}{f'; instead: {advice}' if advice else self._advice(name)}"
+        )
 
     @property
     def _offered(self) -> list[str]:
         """The options that the help of this command names."""
-        return [name for name, action in self._option_string_actions.items() if action.help != argparse.SUPPRESS]
+        return [
+            name
+            for name, action in self._option_string_actions.items()
+            if action.help != argparse.SUPPRESS
+        ]
 
     def _advice(self, name: str) -> str:
         """Suggest an option of this command that is spelled alike, or the one for a word that is."""
@@ -273,7 +319,10 @@ class Parser(argparse.ArgumentParser):
         """Print the error and one line of usage; exit with code 2."""
         if message.endswith("required: -o/--output"):
             message += ". The output is named with -o"
-        self.exit(2, f"{self.prog}: {message}\nusage: {self.prog}{self._inputs()}; see {self.prog} --help\n")
+        self.exit(
+            2,
+            f"{self.prog}: {message}\nusage: {self.prog}{self._inputs()}; see {self.prog} --help\n",
+        )
 
     def file_arguments(self) -> Iterator[argparse.Action]:
         for action in self._actions:

@@ -41,7 +41,9 @@ def to_pyvista(mesh: Any) -> Any:
     fill(found, mesh)
     for name, value in mesh.metadata.items():
         # Numbers, as an array of bytes would be a text to numpy, which loses zeros at its end.
-        found.field_data[name] = np.frombuffer(value, np.uint8) if isinstance(value, bytes) else [value]
+        found.field_data[name] = (
+            np.frombuffer(value, np.uint8) if isinstance(value, bytes) else [value]
+        )
     return found
 
 
@@ -87,7 +89,9 @@ class SequenceReader:
     def set_active_time_point(self, number: int) -> None:
         """Choose a frame by its number."""
         if not 0 <= number < self.number_time_points:
-            raise OptionError(f"frame {number} does not exist; the stream has {self.number_time_points}")
+            raise OptionError(
+                f"frame {number} does not exist; the stream has {self.number_time_points}"
+            )
         self._active = number
 
     def set_active_time_value(self, time: float) -> None:

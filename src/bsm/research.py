@@ -27,7 +27,13 @@ from bsm.bitstream.container.wire import FrameType, checksum_size
 from bsm.bitstream.errors import ArgumentError, CorruptError, FormatError, MeshError, OptionError
 from bsm.bitstream.limits import NAMED_LIMITS
 from bsm.codec.arrays import Basis
-from bsm.codec.blocks.overlap import Blocks, Partition, derive_partition, grow_blocks, partition_of_labels
+from bsm.codec.blocks.overlap import (
+    Blocks,
+    Partition,
+    derive_partition,
+    grow_blocks,
+    partition_of_labels,
+)
 from bsm.codec.decoding import Decoder
 from bsm.codec.events import ConnectivityEvent
 from bsm.codec.geometry.graph import Graph, graph_of_faces
@@ -127,7 +133,9 @@ class Encoded(NamedTuple):
     mesh: TriangleMesh
 
 
-def encode(mesh: Any, idea: Idea | None = None, /, *, step: float = 0.004, **keywords: Any) -> Encoded:
+def encode(
+    mesh: Any, idea: Idea | None = None, /, *, step: float = 0.004, **keywords: Any
+) -> Encoded:
     """Encode the shape of a mesh, as `bsm.encode` takes it, in blocks; `keywords` are fields of `EncodeOptions`.
 
     With your own dictionary or predictor, no decoder can decode the stream: it begins with `MARK`. The returned mesh is
@@ -142,15 +150,22 @@ def encode(mesh: Any, idea: Idea | None = None, /, *, step: float = 0.004, **key
         # Asked twice for everything: a decoder computes the same arrays anew, and a function with a random start would
         # give it others.
         if b"".join(_draft(prepared, idea, options).frames) != stream:
-            raise OptionError("the dictionary or predictor returns different values for the same site")
+            raise OptionError(
+                "the dictionary or predictor returns different values for the same site"
+            )
         # Without a dictionary or predictor of the idea, the stream is an ordinary one, as a partition is sent.
         stream = MARK + stream
     return Encoded(stream, _decoded(prepared, draft, options))
 
 
-def blocks(mesh: Any, idea: Idea | None = None, /, *, step: float = 0.004, **keywords: Any) -> list[BlockArrays]:
+def blocks(
+    mesh: Any, idea: Idea | None = None, /, *, step: float = 0.004, **keywords: Any
+) -> list[BlockArrays]:
     """The arrays of all blocks, in the order of coding, as `encode` with the same arguments meets them."""
-    idea, options = idea or Idea(), changed(EncodeOptions(), **{"step": step, **keywords, "threads": 1})
+    idea, options = (
+        idea or Idea(),
+        changed(EncodeOptions(), **{"step": step, **keywords, "threads": 1}),
+    )
     prepared = _prepared(join(as_mesh(mesh).bare, keep=False).mesh, idea, options)
     found: list[BlockArrays] = []
 
@@ -164,7 +179,11 @@ def blocks(mesh: Any, idea: Idea | None = None, /, *, step: float = 0.004, **key
 
 
 def curves(
-    mesh: Any, ideas: Mapping[str, Idea], /, steps: Sequence[float] = (0.016, 0.008, 0.004, 0.002), **keywords: Any
+    mesh: Any,
+    ideas: Mapping[str, Idea],
+    /,
+    steps: Sequence[float] = (0.016, 0.008, 0.004, 0.002),
+    **keywords: Any,
 ) -> dict[str, dict[str, Any]]:
     """Measure ideas by their names next to the codec, "ours", all on one thread (the extra `eval`).
 
@@ -176,15 +195,30 @@ def curves(
         raise OptionError('the name "ours" is reserved for the codec; choose another one')
     given, found = join(as_mesh(mesh).bare, keep=False).mesh, {}
     for name, idea in {"ours": Idea(), **ideas}.items():
-        codecs = [_tried(idea, changed(EncodeOptions(), **{"threads": 1, **keywords, "step": step})) for step in steps]
+        codecs = [
+            _tried(idea, changed(EncodeOptions(), **{"threads": 1, **keywords, "step": step}))
+            for step in steps
+        ]
         with Console().progress(name) as progress:
-            found[name] = run_curve(Curve(name, name, tuple(codecs)), given, "mesh", progress=progress)
+            found[name] = run_curve(
+                Curve(name, name, tuple(codecs)), given, "mesh", progress=progress
+            )
         rate = compare_curves(found["ours"], found[name])["bd_rate_percent"]["theta_deg"]
         found[name]["bytes_of_ours"] = None if rate is None else 1.0 + rate / 100.0
     return found
 
 
-PART_OPTIONS = ("keep", "coefficients", "doi", "bits", "power", "iterations", "key_seed", "limits", "threads")
+PART_OPTIONS = (
+    "keep",
+    "coefficients",
+    "doi",
+    "bits",
+    "power",
+    "iterations",
+    "key_seed",
+    "limits",
+    "threads",
+)
 """The options of a `PartCoder`: all else is fixed, as one block is a part."""
 
 
@@ -200,19 +234,33 @@ class PartCoder:
     def __init__(self, **keywords: Any) -> None:
         for name in sorted(keywords):
             if name not in PART_OPTIONS or (name == "bits" and not keywords[name]):
-                raise OptionError(f"a part cannot have {name}={keywords[name]!r}; options: {', '.join(PART_OPTIONS)}")
-        one_block: dict[str, Any] = {"block_size": int(RANGES["block_size"][1]), "partition": "derived"}
+                raise OptionError(
+                    f"a part cannot have {name}={keywords[name]!r}; options: {', '.join(PART_OPTIONS)}"
+                )
+        one_block: dict[str, Any] = {
+            "block_size": int(RANGES["block_size"][1]),
+            "partition": "derived",
+        }
         self._options = EncodeOptions(preset="paper", **(one_block | keywords))
-        self._limits, self._basis = NAMED_LIMITS[self._options.limits](), np.empty((0, 0), np.float32)
+        self._limits, self._basis = (
+            NAMED_LIMITS[self._options.limits](),
+            np.empty((0, 0), np.float32),
+        )
 
     def encode(self, part: Any) -> Encoded:
         """Encode a part, as `bsm.encode` takes a mesh: its bytes, and the mesh that they decode to."""
         mesh = join(as_mesh(part).bare, keep=False).mesh
         if len(mesh.positions) > (most := min(self._limits.block_size, self._options.block_size)):
-            raise MeshError(f"a part has at most {most} vertices, not {len(mesh.positions)}; cut it into smaller parts")
+            raise MeshError(
+                f"a part has at most {most} vertices, not {len(mesh.positions)}; cut it into smaller parts"
+            )
         prepared = _prepared(mesh, Idea(), self._options)
         _, columns = self._begun(prepared.blocks, InBlocks(prepared, self._options)._rules())
-        draft = _draft(prepared, Overrides(lambda _, width, __: columns(width).astype(np.float64)), self._options)
+        draft = _draft(
+            prepared,
+            Overrides(lambda _, width, __: columns(width).astype(np.float64)),
+            self._options,
+        )
         data = MARK + b"".join(draft.frames)
         return Encoded(data, self.decode(data))
 
@@ -221,24 +269,43 @@ class PartCoder:
         stream, skimmer = data.removeprefix(MARK), Skimmer(self._limits)
         sections = {p.type: p for chunk in (stream, None) for p in skimmer.receive(chunk)}
         block, header, law = sections.get(FrameType.BLOCK), skimmer.header, skimmer.header.constants
-        if stream == data or header.blocks != 1 or not law.bits or block is None or FrameType.ORDER in sections:
-            raise FormatError("this is not a part: it needs a mark, one block with packed coefficients, and no order")
+        if (
+            stream == data
+            or header.blocks != 1
+            or not law.bits
+            or block is None
+            or FrameType.ORDER in sections
+        ):
+            raise FormatError(
+                "this is not a part: it needs a mark, one block with packed coefficients, and no order"
+            )
         end = block.offset + block.length - checksum_size(block.type, block.payload)
         # The decoder checks each block's sum before it makes the basis, which is the dear part; here only its faces are
         # wanted.
-        spoiled = stream[:end] + bytes([stream[end] ^ 1]) + stream[end + 1 :]  # so that its decoder makes no basis
+        # So that its decoder makes no basis.
+        spoiled = stream[:end] + bytes([stream[end] ^ 1]) + stream[end + 1 :]
         with Decoder(self._limits, 1, tolerant=True) as decoder:
-            faces = next(found.faces for found in decoder.events([spoiled]) if isinstance(found, ConnectivityEvent))
+            faces = next(
+                found.faces
+                for found in decoder.events([spoiled])
+                if isinstance(found, ConnectivityEvent)
+            )
         graph = graph_of_faces(faces, header.vertices)
         blocks = grow_blocks(graph, derive_partition(graph, 1), graph.size)
-        (rows, prediction, weights), columns = self._begun(blocks, replace(rules_of(law), apart=header.onorm))
+        (rows, prediction, weights), columns = self._begun(
+            blocks, replace(rules_of(law), apart=header.onorm)
+        )
         basis = columns(min(block.count, graph.size))
         coding = Packed(block.count, law.bits, header.step, law.coarser)
         levels = coding.read(stream[end - block.data : end], basis.shape[1])
         copy = rows, coding.positions(prediction, basis, levels), weights
-        mesh = TriangleMesh(Units(header.center, header.scale).back(blended(graph.size, [copy])), faces)
+        mesh = TriangleMesh(
+            Units(header.center, header.scale).back(blended(graph.size, [copy])), faces
+        )
         if checksum_of(mesh.positions) != sections[FrameType.END].positions:
-            raise CorruptError("the part does not follow the one before: decode all parts, in the order of encoding")
+            raise CorruptError(
+                "the part does not follow the one before: decode all parts, in the order of encoding"
+            )
         self._basis = basis
         return mesh
 
@@ -248,8 +315,15 @@ class PartCoder:
         """What `Chain.begin` returns of a part, and its dictionary by width: that of a chain with the part before."""
         # The chain of blocks passes a basis on from block to block. So the part before and this one are two blocks,
         # with the same graph, of one chain.
-        size, edges, members = blocks.graph.size, np.tile(blocks.edges, 2), np.tile(blocks.members, 2)
-        chain = Chain(rules, Blocks(blocks.graph, np.tile(blocks.cores, 2), size * np.arange(3), edges, members))
+        size, edges, members = (
+            blocks.graph.size,
+            np.tile(blocks.edges, 2),
+            np.tile(blocks.members, 2),
+        )
+        chain = Chain(
+            rules,
+            Blocks(blocks.graph, np.tile(blocks.cores, 2), size * np.arange(3), edges, members),
+        )
         begun = chain.begin(0)
         if len(self._basis) == size:
             chain.give(self._basis)
@@ -280,11 +354,15 @@ def _tried(idea: Idea, options: EncodeOptions) -> Any:
         return stream, lambda decoded: decoded.positions[place]
 
     parts = Ours(options).parts
-    return SimpleNamespace(settings={"step": options.step}, encode=encode, decode=meshes.__getitem__, parts=parts)
+    return SimpleNamespace(
+        settings={"step": options.step}, encode=encode, decode=meshes.__getitem__, parts=parts
+    )
 
 
 def _draft(prepared: Prepared, idea: Idea | Overrides, options: EncodeOptions) -> Draft:
-    spectral = InBlocks(prepared, options, overrides=_overrides(idea) if isinstance(idea, Idea) else idea)
+    spectral = InBlocks(
+        prepared, options, overrides=_overrides(idea) if isinstance(idea, Idea) else idea
+    )
     return spectral.base(spectral.first_step).draft
 
 
@@ -309,21 +387,28 @@ def _overrides(idea: Idea) -> Overrides:
 
     def dictionary(known: chain.Around, width: int, columns: Columns) -> Floats:
         site = Site(*known, columns)
-        return _checked("dictionary", (idea.dictionary or Site.ours)(site, width), (site.size, width))
+        return _checked(
+            "dictionary", (idea.dictionary or Site.ours)(site, width), (site.size, width)
+        )
 
     def predictor(known: chain.Around) -> Floats:
         site = Site(*known)
-        return _checked("predictor", idea.predictor(site) if idea.predictor else site.prediction, (site.size, 3))
+        return _checked(
+            "predictor", idea.predictor(site) if idea.predictor else site.prediction, (site.size, 3)
+        )
 
     return Overrides(
-        dictionary=dictionary if idea.dictionary else None, predictor=predictor if idea.predictor else None
+        dictionary=dictionary if idea.dictionary else None,
+        predictor=predictor if idea.predictor else None,
     )
 
 
 def _checked(what: str, values: npt.ArrayLike, shape: tuple[int, ...]) -> Floats:
     array = np.asarray(values, np.float64)
     if array.shape != shape or not np.isfinite(array).all():
-        raise ArgumentError(f"the {what} must return finite numbers of shape {shape}, not {array.shape}")
+        raise ArgumentError(
+            f"the {what} must return finite numbers of shape {shape}, not {array.shape}"
+        )
     return array
 
 
@@ -334,5 +419,7 @@ class _OwnParts(Parts):
     def cut(self, graph: Graph) -> Partition:
         labels = np.asarray(self.labeled(graph.offsets, graph.neighbors, self.count(graph.size)))
         if labels.shape != (graph.size,) or labels.dtype.kind not in "iu":
-            raise ArgumentError(f"the partition must return {graph.size} integers, not {labels.dtype}{labels.shape}")
+            raise ArgumentError(
+                f"the partition must return {graph.size} integers, not {labels.dtype}{labels.shape}"
+            )
         return partition_of_labels(labels.astype(np.int32))

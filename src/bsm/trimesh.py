@@ -49,7 +49,9 @@ def to_scene(mesh: Any) -> Any:
     for name, part in parts_of(whole):
         scene.add_geometry(_library.Trimesh(**arguments_of(part)), geom_name=name)
     of_parts = ("material.", "image.", "part.")
-    scene.metadata.update({name: value for name, value in whole.metadata.items() if not name.startswith(of_parts)})
+    scene.metadata.update(
+        {name: value for name, value in whole.metadata.items() if not name.startswith(of_parts)}
+    )
     return scene
 
 
@@ -72,9 +74,15 @@ def arguments_of(mesh: TriangleMesh) -> dict[str, Any]:
         visual, of_faces = _library.visual.ColorVisuals(vertex_colors=formats.rgba(color)), None
     elif of_faces is not None:
         visual = _library.visual.ColorVisuals(face_colors=formats.rgba(of_faces))
-    shown = {attribute.name for attribute in (normal, color, texcoord, of_faces) if attribute is not None}
+    shown = {
+        attribute.name for attribute in (normal, color, texcoord, of_faces) if attribute is not None
+    }
     others = [attribute for attribute in mesh.attributes if attribute.name not in shown]
-    plain = [(name, value) for name, value in mesh.metadata.items() if not name.startswith(("material.", "image."))]
+    plain = [
+        (name, value)
+        for name, value in mesh.metadata.items()
+        if not name.startswith(("material.", "image."))
+    ]
     # What trimesh calls it; its functions for units look there.
     metadata = {"units" if name == "unit" else name: value for name, value in plain}
     arguments: dict[str, Any] = {
@@ -102,7 +110,9 @@ def _textured(mesh: TriangleMesh, texcoord: Attribute | None) -> Any:
     if numbers is not None and len(materials) > 1:
         place = {number: place for place, number in enumerate(known)}
         material = _library.visual.material.MultiMaterial(materials)
-        of_each = np.array([place.get(number, len(known)) for number in numbers.values[:, 0].tolist()])
+        of_each = np.array(
+            [place.get(number, len(known)) for number in numbers.values[:, 0].tolist()]
+        )
     return _library.visual.TextureVisuals(uv=uv, material=material, face_materials=of_each)
 
 
@@ -134,7 +144,11 @@ def _flat(values: Array) -> Array:
 
 def _material(words: Material, metadata: Metadata) -> Any:
     images, known = formats.images_in(metadata), in_gltf(appearance(words))
-    known |= {n: _opened(images.get(v.image, ("", b""))[1]) for n, v in known.items() if isinstance(v, Texture)}
+    known |= {
+        n: _opened(images.get(v.image, ("", b""))[1])
+        for n, v in known.items()
+        if isinstance(v, Texture)
+    }
     return _library.visual.material.PBRMaterial(**known)
 
 
@@ -150,9 +164,13 @@ def _opened(data: bytes) -> Any:
 
 
 def _load(file_obj: IO[bytes], file_type: str | None = None, **keywords: Any) -> dict[str, Any]:
-    return arguments_of(decode(file_obj.read())) | {name: keywords[name] for name in ("process",) if name in keywords}
+    return arguments_of(decode(file_obj.read())) | {
+        name: keywords[name] for name in ("process",) if name in keywords
+    }
 
 
 _library.exchange.load.mesh_loaders["bsm"] = _load
 # trimesh has a public table of loaders, and none of exporters.
-_library.exchange.export._mesh_exporters["bsm"] = lambda mesh, **keywords: encode(from_trimesh(mesh), **keywords)
+_library.exchange.export._mesh_exporters["bsm"] = lambda mesh, **keywords: encode(
+    from_trimesh(mesh), **keywords
+)

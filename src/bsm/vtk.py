@@ -45,7 +45,9 @@ class Playback:
         self._shown, self._here = next(self._frames)
         self._faces: Faces | None = None  # of the frame that was split last
         rate = self._stream.metadata.get("frame_rate")
-        self.rate = float(rate) if isinstance(rate, int | float) and 0 < rate < float("inf") else USUAL_RATE
+        self.rate = (
+            float(rate) if isinstance(rate, int | float) and 0 < rate < float("inf") else USUAL_RATE
+        )
 
     def _opened(self, start: int) -> tuple[SequenceStream, Iterator[tuple[int, Positions]]]:
         stream = SequenceStream(read_chunks(self._path), start=start)
@@ -91,7 +93,9 @@ def fill(output: Any, mesh: TriangleMesh) -> None:
     offsets = np.arange(0, 3 * len(mesh.faces) + 1, 3, dtype=np.int64)
     corners = np.ascontiguousarray(mesh.faces.reshape(-1), np.int64)
     # Offsets and corners, as VTK 9 holds cells; its older form would be converted on every use.
-    cells.SetData(numpy_to_vtkIdTypeArray(offsets, deep=True), numpy_to_vtkIdTypeArray(corners, deep=True))
+    cells.SetData(
+        numpy_to_vtkIdTypeArray(offsets, deep=True), numpy_to_vtkIdTypeArray(corners, deep=True)
+    )
     output.SetPoints(points)
     output.SetPolys(cells)
     for attribute in mesh.attributes:
@@ -99,9 +103,17 @@ def fill(output: Any, mesh: TriangleMesh) -> None:
         array = numpy_to_vtk(np.ascontiguousarray(attribute.values), deep=True)
         array.SetName(attribute.name)
         data.AddArray(array)
-        if attribute.domain == "vertex" and attribute.semantic == "texcoord" and attribute.components == 2:
+        if (
+            attribute.domain == "vertex"
+            and attribute.semantic == "texcoord"
+            and attribute.components == 2
+        ):
             data.SetActiveTCoords(attribute.name)
-        if attribute.domain == "vertex" and attribute.semantic == "normal" and attribute.components == 3:
+        if (
+            attribute.domain == "vertex"
+            and attribute.semantic == "normal"
+            and attribute.components == 3
+        ):
             data.SetActiveNormals(attribute.name)
 
 

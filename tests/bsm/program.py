@@ -27,7 +27,9 @@ def bsm(*arguments, input=b"", text=False):
         patch.setattr(sys, "stdin", io.TextIOWrapper(io.BytesIO(input)))
         code = run(*words)
     found = [stream.buffer.getvalue() for stream in (out, err)]
-    return subprocess.CompletedProcess(words, code, *([line.decode() for line in found] if text else found))
+    return subprocess.CompletedProcess(
+        words, code, *([line.decode() for line in found] if text else found)
+    )
 
 
 def run(*arguments):
@@ -41,7 +43,9 @@ def run(*arguments):
 def python(*words, timeout=120, **keywords):
     """A Python in a process of its own."""
     command = [sys.executable, *map(str, words)]
-    return subprocess.run(command, capture_output=True, timeout=timeout, cwd=ROOT, check=False, **keywords)
+    return subprocess.run(
+        command, capture_output=True, timeout=timeout, cwd=ROOT, check=False, **keywords
+    )
 
 
 def process(*arguments, **keywords):
@@ -76,6 +80,9 @@ def declare_entry_points(folder: Path) -> Path:
     info = folder / "bsm_codec_here-0.1.dist-info"
     info.mkdir()
     (info / "METADATA").write_text("Metadata-Version: 2.1\nName: bsm-codec-here\nVersion: 0.1\n")
-    lines = [f"[{group}]\n" + "".join(f"{k} = {v}\n" for k, v in points.items()) for group, points in declared.items()]
+    lines = [
+        f"[{group}]\n" + "".join(f"{k} = {v}\n" for k, v in points.items())
+        for group, points in declared.items()
+    ]
     (info / "entry_points.txt").write_text("\n".join(lines))
     return folder

@@ -51,26 +51,44 @@ def test_the_ratio_of_images_is_that_of_their_pixels():
     from PIL import Image
 
     data, table = image(64)
-    noisy = np.clip(table.astype(int) + np.random.default_rng(2).integers(-3, 4, table.shape), 0, 255).astype(np.uint8)
+    noisy = np.clip(
+        table.astype(int) + np.random.default_rng(2).integers(-3, 4, table.shape), 0, 255
+    ).astype(np.uint8)
     file = io.BytesIO()
     Image.fromarray(noisy).save(file, "png")
     found = compare_image("a", data, file.getvalue())
     wrong = np.square(noisy.astype(float) - table).mean()
     assert found.psnr_db == pytest.approx(10 * np.log10(255**2 / wrong)) and "PSNR" in str(found)
-    assert compare_image("a", data, data).psnr_db is None and "unchanged" in str(compare_image("a", data, data))
+    assert compare_image("a", data, data).psnr_db is None and "unchanged" in str(
+        compare_image("a", data, data)
+    )
     again = io.BytesIO()
     Image.fromarray(table).save(again, "webp", lossless=True)
     assert "exact" in str(compare_image("a", data, again.getvalue()))
-    assert compare_image("a", data, b"").after is None and "missing" in str(compare_image("a", data, b""))
-    assert compare_image("a", data, b"\x89PNG" + bytes(40)).psnr_db is None  # which Pillow cannot read
+    assert compare_image("a", data, b"").after is None and "missing" in str(
+        compare_image("a", data, b"")
+    )
+    # Which Pillow cannot read.
+    assert compare_image("a", data, b"\x89PNG" + bytes(40)).psnr_db is None
     assert (file_of(data).width, file_of(data).height, file_of(data).kind) == (64, 64, "png")
 
 
 def test_images_are_found_by_number_or_by_name():
     data, other = image(16)[0], image(16, "jpeg")[0]
-    given = {"image.0.name": "a.png", "image.0.data": data, "image.1.name": "b.png", "image.1.data": data}
+    given = {
+        "image.0.name": "a.png",
+        "image.0.data": data,
+        "image.1.name": "b.png",
+        "image.1.data": data,
+    }
     found = compare_images(
-        given, {"image.1.name": "b.png", "image.1.data": data, "image.7.name": "a.jpg", "image.7.data": other}
+        given,
+        {
+            "image.1.name": "b.png",
+            "image.1.data": data,
+            "image.7.name": "a.jpg",
+            "image.7.data": other,
+        },
     )
     assert [(one.name, one.after.kind) for one in found] == [("a.png", "jpg"), ("b.png", "png")]
     assert [one.after for one in compare_images(given, {})] == [None, None]
@@ -79,21 +97,45 @@ def test_images_are_found_by_number_or_by_name():
 @pytest.mark.parametrize("command", ["encode", "glb"])
 def test_what_images_lose_is_said_and_is_what_compare_finds(command, textured, capsys):
     output = textured / ("b.bsm" if command == "encode" else "b.glb")
-    assert main([command, str(textured / "a.obj"), "-o", str(output), "--images", "webp:60@64"]) == 0
+    assert (
+        main([command, str(textured / "a.obj"), "-o", str(output), "--images", "webp:60@64"]) == 0
+    )
     said = next(line for line in capsys.readouterr().err.splitlines() if "PSNR" in line)
     assert "256 x 256 pixels, png" in said and "64 x 64 pixels, webp" in said
     (found,) = facts(capsys, "compare", textured / "a.obj", output)["images"]
     assert f"PSNR {found['psnr_db']:.1f} dB" in said and 10 < found["psnr_db"] < 50
-    assert f"{found['before']['bytes']} bytes" in said and f"{found['after']['bytes']} bytes" in said
+    assert (
+        f"{found['before']['bytes']} bytes" in said and f"{found['after']['bytes']} bytes" in said
+    )
     capsys.readouterr()
     assert main(["compare", str(textured / "a.obj"), str(output)]) == 0
     assert said.partition(": ")[2] in capsys.readouterr().out
 
 
 def test_tiles_say_what_their_textures_lose(textured, capsys):
-    assert main(["tile", str(textured / "a.obj"), "-o", str(textured / "t"), "--images", "webp:20@32"]) == 0
-    coarse = float(re.search(r"written as webp, PSNR ([\d.]+) dB in the worst tile", capsys.readouterr().err)[1])
-    assert main(["tile", str(textured / "a.obj"), "-o", str(textured / "t"), "-f", "--images", "webp:95"]) == 0
+    assert (
+        main(["tile", str(textured / "a.obj"), "-o", str(textured / "t"), "--images", "webp:20@32"])
+        == 0
+    )
+    coarse = float(
+        re.search(r"written as webp, PSNR ([\d.]+) dB in the worst tile", capsys.readouterr().err)[
+            1
+        ]
+    )
+    assert (
+        main(
+            [
+                "tile",
+                str(textured / "a.obj"),
+                "-o",
+                str(textured / "t"),
+                "-f",
+                "--images",
+                "webp:95",
+            ]
+        )
+        == 0
+    )
     assert 10 < coarse < float(re.search(r"PSNR ([\d.]+) dB", capsys.readouterr().err)[1])
 
 
@@ -104,7 +146,10 @@ def test_attributes_of_a_mesh_have_the_errors_that_compare_finds(textured, capsy
         told["attribute_errors"] == found["attributes"]
         and 0 < told["attribute_errors"]["texcoord"]["max_error_texels"] <= 0.25
     )
-    assert any(re.search(r"texcoord: .*; largest error [\d.e-]+, [\d.]+ texels", note) for note in told["notes"])
+    assert any(
+        re.search(r"texcoord: .*; largest error [\d.e-]+, [\d.]+ texels", note)
+        for note in told["notes"]
+    )
 
 
 @pytest.fixture
@@ -114,31 +159,52 @@ def moving(tmp_path):
     for frame in range(4):
         bent = MESH.positions * (1.0 + 0.05 * frame * MESH.positions[:, :1])
         fields = (
-            bsm.Attribute("p", (100 * np.sin(3 * MESH.positions[:, :1] + frame)).astype(np.float32)),
+            bsm.Attribute(
+                "p", (100 * np.sin(3 * MESH.positions[:, :1] + frame)).astype(np.float32)
+            ),
             bsm.Attribute("U", (MESH.positions * np.cos(0.2 * frame)).astype(np.float32)),
             bsm.Attribute("color", colors, "vertex", "color"),
-            bsm.Attribute("Normals", np.tile(np.float32([0, 0, 1]), (COUNT, 1)), "vertex", "normal"),
+            bsm.Attribute(
+                "Normals", np.tile(np.float32([0, 0, 1]), (COUNT, 1)), "vertex", "normal"
+            ),
         )
         (tmp_path / "in").mkdir(exist_ok=True)
-        bsm.save(bsm.TriangleMesh(bent, MESH.faces, fields, {"unit": "m"}), tmp_path / "in" / f"w{frame}.vtp")
+        bsm.save(
+            bsm.TriangleMesh(bent, MESH.faces, fields, {"unit": "m"}),
+            tmp_path / "in" / f"w{frame}.vtp",
+        )
     return tmp_path
 
 
 def test_fields_of_a_sequence_have_the_errors_that_compare_finds(moving, capsys):
-    output, wishes = moving / "b.bsm", ("--max-error", "5mm", "--attribute", "p=0.1%", "--attribute", "U=0.01")
+    output, wishes = (
+        moving / "b.bsm",
+        ("--max-error", "5mm", "--attribute", "p=0.1%", "--attribute", "U=0.01"),
+    )
     told = facts(capsys, "encode", moving / "in", "-o", output, *wishes)
     found = facts(capsys, "compare", moving / "in", output)
     for name, most in (("p", 0.2), ("U", 0.01)):
         assert told["attribute_errors"][name]["max_error"] == pytest.approx(
             found["attributes"][name]["max_error"], rel=1e-6
         )
-        assert 0 < found["attributes"][name]["max_error"] <= most and 0 <= found["attributes"][name]["worst_frame"] < 4
-        assert any(note.startswith(f"{name}: ") and "; largest error" in note for note in told["notes"])
-    assert found["attributes"]["color"]["max_error"] <= 255 and found["attributes"]["Normals"] is None
-    assert told["unit"] == "mm" and told["max_error"] == pytest.approx(1000 * found["max_error"], rel=1e-6)
+        assert (
+            0 < found["attributes"][name]["max_error"] <= most
+            and 0 <= found["attributes"][name]["worst_frame"] < 4
+        )
+        assert any(
+            note.startswith(f"{name}: ") and "; largest error" in note for note in told["notes"]
+        )
+    assert (
+        found["attributes"]["color"]["max_error"] <= 255 and found["attributes"]["Normals"] is None
+    )
+    assert told["unit"] == "mm" and told["max_error"] == pytest.approx(
+        1000 * found["max_error"], rel=1e-6
+    )
     assert told["max_error_relative"] == pytest.approx(found["max_error_relative"], rel=1e-6)
     assert 0 < found["max_error"] <= 0.005
-    assert "left out: Normals; a sequence has no normals, which follow from positions" in told["notes"]
+    assert (
+        "left out: Normals; a sequence has no normals, which follow from positions" in told["notes"]
+    )
     page = compared("w", output.read_bytes(), sequence_in(str(moving / "in"))).facts["attributes"]
     assert {name: page[name] for name in ("p", "U", "color")} == {
         name: found["attributes"][name] for name in ("p", "U", "color")
@@ -146,11 +212,15 @@ def test_fields_of_a_sequence_have_the_errors_that_compare_finds(moving, capsys)
     capsys.readouterr()
     assert main(["encode", str(moving / "in"), "-o", str(output), "-f", *wishes]) == 0
     assert re.search(
-        r"largest vertex error [\d.]+ mm \([\d.]+ % of the diagonal\), 5mm asked for", capsys.readouterr().err
+        r"largest vertex error [\d.]+ mm \([\d.]+ % of the diagonal\), 5mm asked for",
+        capsys.readouterr().err,
     )
     # The error is that of the decoded frames.
     off = [
-        np.linalg.norm(bsm.load(moving / "in" / f"w{number}.vtp").positions.min(axis=0) - frame.positions.min(axis=0))
+        np.linalg.norm(
+            bsm.load(moving / "in" / f"w{number}.vtp").positions.min(axis=0)
+            - frame.positions.min(axis=0)
+        )
         for number, frame in enumerate(bsm.decode_frames(output))
     ]
     assert max(off) <= 0.005
@@ -159,10 +229,14 @@ def test_fields_of_a_sequence_have_the_errors_that_compare_finds(moving, capsys)
 def test_inputs_count_every_file_once(moving, capsys):
     sizes = [path.stat().st_size for path in (moving / "in").iterdir()]
     rows = "".join(f'<DataSet timestep="{n}" file="in/w{n}.vtp"/>' for n in range(4))
-    (moving / "a.pvd").write_text(f'<VTKFile type="Collection"><Collection>{rows}</Collection></VTKFile>')
+    (moving / "a.pvd").write_text(
+        f'<VTKFile type="Collection"><Collection>{rows}</Collection></VTKFile>'
+    )
     told = facts(capsys, "encode", moving / "a.pvd")
     assert told["input_bytes"] == sum(sizes) + (moving / "a.pvd").stat().st_size
-    assert facts(capsys, "encode", moving / "in", "-o", moving / "c.bsm")["input_bytes"] == sum(sizes)
+    assert facts(capsys, "encode", moving / "in", "-o", moving / "c.bsm")["input_bytes"] == sum(
+        sizes
+    )
 
 
 def test_rows_of_a_batch_do_not_count_a_shared_file_each(textured, capsys):
@@ -179,8 +253,12 @@ def test_rows_of_a_batch_do_not_count_a_shared_file_each(textured, capsys):
 def test_pictures_have_titles_and_a_bar(textured, capsys):
     assert main(["encode", str(textured / "a.obj"), "-q"]) == 0
     words = ["compare", str(textured / "a.obj"), str(textured / "a.bsm")]
-    assert main([*words, "--picture", str(textured / "p.png"), "--map", str(textured / "m.png")]) == 0
-    assert re.search(r"m.png: red is [\d.e-]+ and more; the largest error is", capsys.readouterr().err)
+    assert (
+        main([*words, "--picture", str(textured / "p.png"), "--map", str(textured / "m.png")]) == 0
+    )
+    assert re.search(
+        r"m.png: red is [\d.e-]+ and more; the largest error is", capsys.readouterr().err
+    )
     from PIL import Image
 
     from bsm.account.drawing import surface_colors
@@ -196,7 +274,10 @@ def test_pictures_have_titles_and_a_bar(textured, capsys):
     assert np.array_equal(colors, table[255 - up, across])
     other = torus(20, 12)
     bsm.save(other, textured / "other.ply")
-    assert main([*words[:2], str(textured / "other.ply"), "--picture", str(textured / "q.png")]) == 0  # other faces
+    # Other faces.
+    assert (
+        main([*words[:2], str(textured / "other.ply"), "--picture", str(textured / "q.png")]) == 0
+    )
 
 
 MISTAKES = [
@@ -259,7 +340,10 @@ def test_examples_of_the_help_are_commands(command):
     if command == "encode":
         assert len(lines) == 2 and text.index("--preset") < text.index("--dask")
         assert text.index("bsm encode") < text.index("positional arguments")
-        assert all(text.count(f"  {option}") == 1 for option in ("--images RULE", "--simplify ", "--dask ADDRESS"))
+        assert all(
+            text.count(f"  {option}") == 1
+            for option in ("--images RULE", "--simplify ", "--dask ADDRESS")
+        )
 
 
 def test_points_of_another_codec_are_drawn_and_compared(tmp_path, capsys):
@@ -269,14 +353,26 @@ def test_points_of_another_codec_are_drawn_and_compared(tmp_path, capsys):
     (tmp_path / "mine.csv").write_text(
         "label,bpv,theta_deg,nmsve_db\nMy codec,3,20,-30\nMy codec,9,4,-40\nMy codec,20,.2,\n"
     )
-    words = ["curve", str(tmp_path / "t.ply"), "-o", str(tmp_path / "c"), "--codecs", "draco", "--points"]
+    words = [
+        "curve",
+        str(tmp_path / "t.ply"),
+        "-o",
+        str(tmp_path / "c"),
+        "--codecs",
+        "draco",
+        "--points",
+    ]
     assert main([*words, str(tmp_path / "mine.csv")]) == 0
     assert "my-codec" in capsys.readouterr().out
     drawn = (tmp_path / "c" / "t.theta.svg").read_text()
     assert main(["curve", "-o", str(tmp_path / "c")]) == 0  # earlier results, and those of others
     assert (tmp_path / "c" / "t.theta.svg").exists() and len(drawn) > 1000
     result = json.loads((tmp_path / "c" / "t.my-codec.json").read_text())
-    assert (result["label"], len(result["points"]), result["points"][2]["nmsve_db"]) == ("My codec", 3, None)
+    assert (result["label"], len(result["points"]), result["points"][2]["nmsve_db"]) == (
+        "My codec",
+        3,
+        None,
+    )
     for text, words_of_error in (
         ("label,bpv\nx,1\n", "must name label, bpv"),
         ("label,bpv,theta_deg\nx,0,1\n", "line 2: bits per vertex must be above 0"),
@@ -286,7 +382,9 @@ def test_points_of_another_codec_are_drawn_and_compared(tmp_path, capsys):
         ("label,bpv,theta_deg\nDraco,1,1\n", "give another label"),
     ):
         (tmp_path / "bad.csv").write_text(text)
-        assert main(["curve", "-o", str(tmp_path / "c"), "--points", str(tmp_path / "bad.csv")]) == 3
+        assert (
+            main(["curve", "-o", str(tmp_path / "c"), "--points", str(tmp_path / "bad.csv")]) == 3
+        )
         assert words_of_error in capsys.readouterr().err
     (tmp_path / "c" / "t.x.json").write_text('{"schema": 1, "codec": "x"}')
     assert main(["curve", "-o", str(tmp_path / "c")]) == 3

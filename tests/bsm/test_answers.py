@@ -84,7 +84,9 @@ def test_a_folder_may_be_called_like_a_file_where_that_is_meant(folder):
 
 def test_a_plain_scene_is_told_from_a_compressed_one(folder, capsys):
     assert run("info", "ring.glb") == 0
-    assert capsys.readouterr().out.startswith("scene of 1 primitive, not compressed: bsm glb ring.glb -o OUT.glb")
+    assert capsys.readouterr().out.startswith(
+        "scene of 1 primitive, not compressed: bsm glb ring.glb -o OUT.glb"
+    )
 
 
 def test_decoded_blocks_are_counted(folder, capsys):
@@ -94,18 +96,26 @@ def test_decoded_blocks_are_counted(folder, capsys):
     assert f"ring.bsm: the first 2 of {count} blocks\n" in capsys.readouterr().err
     assert run("decode", "ring.bsm", "-o", "b.ply", "--blocks", 999) == 0
     assert f"--blocks 999: the stream has {count}, and all were decoded" in capsys.readouterr().err
-    with pytest.warns(bsm.BsmWarning, match=f"blocks=999: the stream has {count}, and all were decoded"):
+    with pytest.warns(
+        bsm.BsmWarning, match=f"blocks=999: the stream has {count}, and all were decoded"
+    ):
         bsm.decode("ring.bsm", blocks=999)
 
 
 def test_a_part_of_a_stream_without_parts_is_all_of_it_and_said(folder, capsys):
     Path("whole.bsm").write_bytes(bsm.encode(bsm.load("ring.ply"), preset="lossless"))
     assert run("decode", "whole.bsm", "--blocks", 1) == 0
-    assert "whole.bsm: --blocks 1: the stream has no blocks, and all of it was decoded\n" in capsys.readouterr().err
+    assert (
+        "whole.bsm: --blocks 1: the stream has no blocks, and all of it was decoded\n"
+        in capsys.readouterr().err
+    )
     with pytest.warns(bsm.BsmWarning, match="blocks=1: the stream has no blocks"):
         bsm.decode("whole.bsm", blocks=1)
     assert run("decode", "whole.bsm", "--layers", 1, "-f") == 0
-    assert "whole.bsm: --layers 1: the stream has 1, and all of it was decoded\n" in capsys.readouterr().err
+    assert (
+        "whole.bsm: --layers 1: the stream has 1, and all of it was decoded\n"
+        in capsys.readouterr().err
+    )
 
 
 def test_frames_are_told_by_number_and_name(folder, capsys):
@@ -127,7 +137,9 @@ def test_the_mesh_of_a_cache_is_named(folder, capsys):
 def test_coefficients_beyond_a_block_are_told(folder, capsys):
     assert run("encode", "ring.ply", "-o", "c.bsm", "--set", "coefficients=100000") == 0
     most = int(capsys.readouterr().err.partition("coefficients: ")[2].partition(" at most")[0])
-    assert most == bsm.info("c.bsm")["block_size"] and max(bsm.info("c.bsm")["coefficients"]) <= most
+    assert (
+        most == bsm.info("c.bsm")["block_size"] and max(bsm.info("c.bsm")["coefficients"]) <= most
+    )
     assert run("encode", "ring.ply", "-o", "d.bsm", "--set", "coefficients=5") == 0
     assert "coefficients:" not in capsys.readouterr().err
 
@@ -157,7 +169,14 @@ def test_points_that_cannot_be_meant_are_refused(text, tmp_path):
 
 def test_a_dae_holds_ambient_and_specular_colors(tmp_path):
     collada = pytest.importorskip("collada")
-    words = {"name": "orange", "Ka": "0.1 0.2 0.3", "Kd": "1 0.5 0", "Ks": "0.4 0.5 0.6", "Ns": "12", "Ni": "1.5"}
+    words = {
+        "name": "orange",
+        "Ka": "0.1 0.2 0.3",
+        "Kd": "1 0.5 0",
+        "Ks": "0.4 0.5 0.6",
+        "Ns": "12",
+        "Ni": "1.5",
+    }
     metadata = {f"material.0.{word}": value for word, value in words.items()}
     mesh = bsm.TriangleMesh(torus(6, 5).positions, torus(6, 5).faces, metadata=metadata)
     assert bsm.save(mesh, tmp_path / "a.dae") == ()
@@ -166,7 +185,9 @@ def test_a_dae_holds_ambient_and_specular_colors(tmp_path):
     assert effect.specular[:3] == pytest.approx((0.4, 0.5, 0.6))
     assert (effect.shininess, effect.index_of_refraction) == pytest.approx((12, 1.5))
     # What no effect holds is still named.
-    odd = bsm.TriangleMesh(mesh.positions, mesh.faces, metadata={**metadata, "material.0.Ka": "spectral a.rfl"})
+    odd = bsm.TriangleMesh(
+        mesh.positions, mesh.faces, metadata={**metadata, "material.0.Ka": "spectral a.rfl"}
+    )
     assert bsm.save(odd, tmp_path / "b.dae") == ("Ka of material orange",)
 
 
@@ -177,8 +198,14 @@ def mesh_of_a_ring() -> bsm.TriangleMesh:
 PYTHON = {
     "there are no bytes": (bsm.TruncatedError, lambda data: bsm.decode(b"")),
     r"bytes.fromhex\(text\)": (bsm.ArgumentError, lambda data: bsm.decode(data.hex())),
-    r"base64.b64decode\(text\)": (bsm.ArgumentError, lambda data: bsm.decode(base64.b64encode(data).decode())),
-    "this is a PLY, not a BSM stream; bsm.load reads it": (bsm.FormatError, lambda data: bsm.decode(ply_bytes())),
+    r"base64.b64decode\(text\)": (
+        bsm.ArgumentError,
+        lambda data: bsm.decode(base64.b64encode(data).decode()),
+    ),
+    "this is a PLY, not a BSM stream; bsm.load reads it": (
+        bsm.FormatError,
+        lambda data: bsm.decode(ply_bytes()),
+    ),
     "Limits has no limit max_vertices; did you mean vertices": (
         bsm.ArgumentError,
         lambda data: bsm.Limits(max_vertices=2),
@@ -187,7 +214,10 @@ PYTHON = {
         bsm.ArgumentError,
         lambda data: bsm.decode(data, timeout=5),
     ),
-    "decode has no keyword thread; did you mean threads": (bsm.ArgumentError, lambda data: bsm.decode(data, thread=1)),
+    "decode has no keyword thread; did you mean threads": (
+        bsm.ArgumentError,
+        lambda data: bsm.decode(data, thread=1),
+    ),
     "decode has no keyword verbose; its keywords are blocks": (
         bsm.ArgumentError,
         lambda data: bsm.decode(data, verbose=True),
@@ -196,14 +226,22 @@ PYTHON = {
         bsm.ArgumentError,
         lambda data: bsm.encode(mesh_of_a_ring(), quality=10),
     ),
-    "it is an entry of the metadata": (bsm.ArgumentError, lambda data: bsm.encode(mesh_of_a_ring(), unit="mm")),
-    "come without a name": (bsm.ArgumentError, lambda data: bsm.encode(mesh_of_a_ring(), options=bsm.EncodeOptions())),
+    "it is an entry of the metadata": (
+        bsm.ArgumentError,
+        lambda data: bsm.encode(mesh_of_a_ring(), unit="mm"),
+    ),
+    "come without a name": (
+        bsm.ArgumentError,
+        lambda data: bsm.encode(mesh_of_a_ring(), options=bsm.EncodeOptions()),
+    ),
     "did you mean coefficients": (bsm.ArgumentError, lambda data: bsm.EncodeOptions(coefs=50)),
     "its options are keep": (bsm.ArgumentError, lambda data: bsm.EncodeOptions(xyz=50)),
     'format="ply"': (bsm.ArgumentError, lambda data: bsm.save(mesh_of_a_ring(), io.BytesIO())),
     "frame 1 has 3 vertices, and frame 0 has 30; encode_frames": (
         bsm.MeshError,
-        lambda data: bsm.encode_sequence([mesh_of_a_ring().positions, np.ones((3, 3))], mesh_of_a_ring().faces),
+        lambda data: bsm.encode_sequence(
+            [mesh_of_a_ring().positions, np.ones((3, 3))], mesh_of_a_ring().faces
+        ),
     ),
     "its vertices are mesh.positions": (AttributeError, lambda data: mesh_of_a_ring().vertices),
     "its triangles are mesh.faces": (AttributeError, lambda data: mesh_of_a_ring().triangles),
@@ -226,8 +264,20 @@ def test_errors_of_python_say_what_to_write(message):
 
 def test_advice_on_keywords_names_keywords_that_there_are():
     """An advice is a keyword of the function and, but for true, a literal value."""
-    keywords = ("preset", "max_error", "size", "grid", "threads", "limits", "frame_rate", "effort", "attribute")
-    answers = {word: advice_on_keyword(word.lstrip("-").replace("-", "_"), keywords) for word in OPTIONS}
+    keywords = (
+        "preset",
+        "max_error",
+        "size",
+        "grid",
+        "threads",
+        "limits",
+        "frame_rate",
+        "effort",
+        "attribute",
+    )
+    answers = {
+        word: advice_on_keyword(word.lstrip("-").replace("-", "_"), keywords) for word in OPTIONS
+    }
     given = {word: answer.partition("=") for word, answer in answers.items() if answer}
     assert given["--fps"] == ("frame_rate", "=", "30") and given["--quality"][2] == "'fine'"
     for word, (keyword, _, value) in given.items():

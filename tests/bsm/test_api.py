@@ -110,7 +110,9 @@ def test_what_cannot_be_saved(mesh, tmp_path):
         bsm.save(mesh, tmp_path / "a.wrl")
     with pytest.raises(bsm.OptionError, match=r"step is an option of \.bsm files"):
         bsm.save(mesh, tmp_path / "a.ply", step=1)
-    with pytest.raises(bsm.ArgumentError, match=r"a path is expected, or an open .* not TriangleMesh"):
+    with pytest.raises(
+        bsm.ArgumentError, match=r"a path is expected, or an open .* not TriangleMesh"
+    ):
         bsm.save(tmp_path / "a.ply", mesh)
     bsm.save(mesh, tmp_path / "a.ply")
     with pytest.raises(FileExistsError, match="overwrite=True"):
@@ -120,7 +122,9 @@ def test_what_cannot_be_saved(mesh, tmp_path):
     assert caught.value.filename == str(tmp_path / "no" / "a.ply")
 
 
-@pytest.mark.parametrize("read", [bsm.load, bsm.read_mesh, bsm.decode, bsm.decode_sequence, bsm.encode])
+@pytest.mark.parametrize(
+    "read", [bsm.load, bsm.read_mesh, bsm.decode, bsm.decode_sequence, bsm.encode]
+)
 def test_folders_and_missing_files(read, tmp_path):
     with pytest.raises(bsm.FormatError, match="is a folder"):
         read(tmp_path)
@@ -135,7 +139,12 @@ def test_compare_takes_all_kinds(mesh, stream, decoded, tmp_path):
     (tmp_path / "a.bsm").write_bytes(stream)
     expected = bsm.compare(mesh, decoded)
     assert 0 < expected.max_error_relative < 0.05
-    for other in (stream, io.BytesIO(stream), tmp_path / "a.bsm", (decoded.positions, decoded.faces)):
+    for other in (
+        stream,
+        io.BytesIO(stream),
+        tmp_path / "a.bsm",
+        (decoded.positions, decoded.faces),
+    ):
         assert bsm.compare(mesh, other) == expected
     encoder = bsm.Encoder(mesh, bsm.EncodeOptions(**QUICK))
     assert bsm.compare(mesh, decoded, order=encoder.vertex_order) == expected
@@ -150,12 +159,16 @@ def test_denoise():
     noisy = bsm.TriangleMesh(clean.positions + noise, clean.faces)
     before = bsm.compare(clean, noisy).theta_deg
     assert bsm.compare(clean, bsm.denoise((noisy.positions, noisy.faces))).theta_deg < before
-    assert same(bsm.denoise(noisy, bsm.DenoiseOptions(iterations=2)), bsm.denoise(noisy, iterations=2))
+    assert same(
+        bsm.denoise(noisy, bsm.DenoiseOptions(iterations=2)), bsm.denoise(noisy, iterations=2)
+    )
 
 
 def test_denoise_warns_of_normals_that_it_leaves_out():
     clean = torus(48, 32, bumps=0.0)
-    normals = bsm.Attribute("normal", np.tile([0.0, 0.0, 1.0], (len(clean.positions), 1)), semantic="normal")
+    normals = bsm.Attribute(
+        "normal", np.tile([0.0, 0.0, 1.0], (len(clean.positions), 1)), semantic="normal"
+    )
     dressed = bsm.TriangleMesh(clean.positions, clean.faces, [normals])
     assert bsm.denoise(dressed) is dressed
     with pytest.warns(bsm.BsmWarning, match="normal"):
@@ -238,4 +251,6 @@ def test_a_missing_folder_is_named_and_nothing_else(mesh, tmp_path):
     path = tmp_path / "no" / "where.ply"
     with pytest.raises(FileNotFoundError) as caught:
         bsm.save(mesh, path)
-    assert str(caught.value).endswith(f"folder {path.parent} of the output does not exist; create it first: '{path}'")
+    assert str(caught.value).endswith(
+        f"folder {path.parent} of the output does not exist; create it first: '{path}'"
+    )

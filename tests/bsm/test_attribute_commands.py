@@ -30,7 +30,9 @@ def test_everything_comes_back(tmp_path):
         words = ("encode", tmp_path / source, "-o", tmp_path / "a.bsm", "-fq", *GRID)
         assert main([*map(str, words), "--meta", "author=me=you", "--meta", "name="]) == 0
         for target in ("b.obj", "b.ply", "b.npz"):
-            assert main(["decode", str(tmp_path / "a.bsm"), "-o", str(tmp_path / target), "-fq"]) == 0
+            assert (
+                main(["decode", str(tmp_path / "a.bsm"), "-o", str(tmp_path / target), "-fq"]) == 0
+            )
             errors = run_json("compare", tmp_path / source, tmp_path / target)["attributes"]
             assert errors["texcoord"]["max_error"] < 2e-4
             if source == "a.npz":
@@ -50,7 +52,12 @@ def test_python_compares_as_the_command_does(tmp_path):
         result = run_json("compare", tmp_path / "a.npz", tmp_path / other)
         assert found.max_error_relative == result["max_error_relative"] > 0
         assert found.attributes["label"] is result["attributes"]["label"] is None
-        assert 0 < found.attributes["texcoord"].max_error == result["attributes"]["texcoord"]["max_error"] < 2e-4
+        assert (
+            0
+            < found.attributes["texcoord"].max_error
+            == result["attributes"]["texcoord"]["max_error"]
+            < 2e-4
+        )
     assert bsm.compare(tmp_path / "a.npz", painted()).attributes["label"].max_error == 0
 
 
@@ -59,17 +66,25 @@ def test_info_shows_metadata(tmp_path, capsys):
     info = run_json("info", tmp_path / "a.bsm")
     entries = info["metadata"]
     assert info["bytes"]["metadata"] > len(png()) and info["bytes"]["framing"] < 250
-    assert (entries["name"], entries["year"], base64.b64decode(entries["image.0.data"])) == ("ring", 1994, png())
+    assert (entries["name"], entries["year"], base64.b64decode(entries["image.0.data"])) == (
+        "ring",
+        1994,
+        png(),
+    )
     assert main(["info", str(tmp_path / "a.bsm")]) == 0
     text = capsys.readouterr().out
     assert "  name: ring\n" in text and f"  image.0.data: {len(png())} bytes\n" in text
 
 
 def test_the_shape_alone_brings_no_images():
-    kept = bsm.decode(bsm.encode(painted(), attributes={"*": "none"}, metadata={"author": "me"}, grid=12))
+    kept = bsm.decode(
+        bsm.encode(painted(), attributes={"*": "none"}, metadata={"author": "me"}, grid=12)
+    )
     assert not kept.attributes
     assert set(kept.metadata) == {"author", "name", "unit"}
-    some = bsm.decode(bsm.encode(painted(), attributes={"*": "none", "texcoord": "12bits"}, grid=12))
+    some = bsm.decode(
+        bsm.encode(painted(), attributes={"*": "none", "texcoord": "12bits"}, grid=12)
+    )
     assert [attribute.name for attribute in some.attributes] == ["texcoord"]
     assert some.metadata["image.0.data"] == png()
 
@@ -89,11 +104,23 @@ def test_names_of_values_leave_with_their_attribute(count, tmp_path):
 def test_metadata_of_a_sequence(tmp_path):
     mesh = torus(12, 9)
     np.savez(tmp_path / "s.npz", positions=np.array([mesh.positions] * 3), faces=mesh.faces)
-    words = ("encode", tmp_path / "s.npz", "-o", tmp_path / "s.bsm", "-q", "--meta", "name=Ring", "--set", "step=0.01")
+    words = (
+        "encode",
+        tmp_path / "s.npz",
+        "-o",
+        tmp_path / "s.bsm",
+        "-q",
+        "--meta",
+        "name=Ring",
+        "--set",
+        "step=0.01",
+    )
     assert main([*map(str, words)]) == 0
     assert run_json("info", tmp_path / "s.bsm")["metadata"] == {"name": "Ring"}
     with bsm.SequenceDecoder() as decoder:
-        decoder.receive_data(bsm.encode_sequence([mesh.positions] * 2, mesh.faces, metadata={"a": 1}, step=0.01))
+        decoder.receive_data(
+            bsm.encode_sequence([mesh.positions] * 2, mesh.faces, metadata={"a": 1}, step=0.01)
+        )
         while not isinstance(decoder.next_event(), bsm.Signal):
             pass
         assert dict(decoder.metadata) == {"a": 1}
@@ -102,7 +129,9 @@ def test_metadata_of_a_sequence(tmp_path):
 def test_what_a_format_cannot_hold_is_reported(tmp_path, capsys):
     bsm.save(dressed(), tmp_path / "a.bsm", grid=12)
     printed = notes(capsys, "decode", tmp_path / "a.bsm", "-o", tmp_path / "a.off")
-    assert "off cannot hold" in printed and all(name in printed for name in ("height", "label", "material"))
+    assert "off cannot hold" in printed and all(
+        name in printed for name in ("height", "label", "material")
+    )
     assert run_json("decode", tmp_path / "a.bsm", "-o", tmp_path / "a.npz")["left_out"] == []
 
 
@@ -111,8 +140,15 @@ def test_a_part_of_a_stream_has_metadata_and_says_which_values_it_has_not(tmp_pa
     printed = notes(capsys, "decode", tmp_path / "a.bsm", "-o", tmp_path / "a.npz", "--blocks", "1")
     assert "left out: 3 of 3 attributes" in printed
     assert read_mesh(tmp_path / "a.npz").mesh.metadata["name"] == "ring"
-    assert main(["decode", str(tmp_path / "a.bsm"), "-o", str(tmp_path / "b.npz"), "--tolerant", "-q"]) == 0
-    assert {a.name for a in read_mesh(tmp_path / "b.npz").mesh.attributes} == {"texcoord", "height", "label"}
+    assert (
+        main(["decode", str(tmp_path / "a.bsm"), "-o", str(tmp_path / "b.npz"), "--tolerant", "-q"])
+        == 0
+    )
+    assert {a.name for a in read_mesh(tmp_path / "b.npz").mesh.attributes} == {
+        "texcoord",
+        "height",
+        "label",
+    }
 
 
 def test_an_undamaged_stream_has_computed_normals_where_damage_is_tolerated(tmp_path, capsys):
@@ -120,7 +156,9 @@ def test_an_undamaged_stream_has_computed_normals_where_damage_is_tolerated(tmp_
     normals = bsm.Attribute("normal", mesh.positions, semantic="normal")
     made = bsm.TriangleMesh(mesh.positions, mesh.faces, [normals])
     bsm.save(made, tmp_path / "a.bsm", grid=12, attributes={"normal": "recompute"})
-    assert "left out" not in notes(capsys, "decode", tmp_path / "a.bsm", "-o", tmp_path / "a.npz", "--tolerant")
+    assert "left out" not in notes(
+        capsys, "decode", tmp_path / "a.bsm", "-o", tmp_path / "a.npz", "--tolerant"
+    )
     (found,), (expected,) = (bsm.load(tmp_path / name).attributes for name in ("a.npz", "a.bsm"))
     assert np.array_equal(found.values, expected.values)
 
@@ -153,9 +191,23 @@ def test_a_stream_does_not_stand_beside_the_permutation_of_another(tmp_path):
 
 def test_a_permutation_takes_attributes_along(tmp_path):
     mesh = torus(12, 9)
-    numbered = TriangleMesh(mesh.positions, mesh.faces, [Attribute("number", np.arange(len(mesh.positions)))])
+    numbered = TriangleMesh(
+        mesh.positions, mesh.faces, [Attribute("number", np.arange(len(mesh.positions)))]
+    )
     bsm.save(numbered, tmp_path / "a.ply")
-    assert main(["encode", str(tmp_path / "a.ply"), "--permutation", str(tmp_path / "p.npy"), "-q", *GRID]) == 0
+    assert (
+        main(
+            [
+                "encode",
+                str(tmp_path / "a.ply"),
+                "--permutation",
+                str(tmp_path / "p.npy"),
+                "-q",
+                *GRID,
+            ]
+        )
+        == 0
+    )
     words = ["--permutation", str(tmp_path / "p.npy"), "-o", str(tmp_path / "b.ply"), "-q"]
     assert main(["decode", str(tmp_path / "a.bsm"), *words]) == 0
     again = read_mesh(tmp_path / "b.ply").mesh
@@ -167,10 +219,16 @@ def test_compare_tells_what_is_not_there_any_more(tmp_path, capsys):
     bsm.save(mesh, tmp_path / "a.npz")
     bsm.save(mesh, tmp_path / "b.off")
     errors = run_json("compare", tmp_path / "a.npz", tmp_path / "b.off")["attributes"]
-    assert errors["height"] is None and errors["color"]["max_error"] == 0 and errors["normal"]["max_angle_deg"] == 0
+    assert (
+        errors["height"] is None
+        and errors["color"]["max_error"] == 0
+        and errors["normal"]["max_angle_deg"] == 0
+    )
     assert main(["compare", str(tmp_path / "a.npz"), str(tmp_path / "b.off")]) == 0
     printed = capsys.readouterr().out
-    assert "height: missing\n" in printed and f"only in {tmp_path / 'a.npz'}: height, label" in printed
+    assert (
+        "height: missing\n" in printed and f"only in {tmp_path / 'a.npz'}: height, label" in printed
+    )
 
 
 @pytest.mark.slow
@@ -193,7 +251,9 @@ def test_real_assets(meshes, name, bounds, tmp_path):
     before = read_mesh(source).mesh
     for target in ("a.bsm", "b.ply", "b.npz"):
         if target != "a.bsm":
-            assert main(["decode", str(tmp_path / "a.bsm"), "-o", str(tmp_path / target), "-q"]) == 0
+            assert (
+                main(["decode", str(tmp_path / "a.bsm"), "-o", str(tmp_path / target), "-q"]) == 0
+            )
         found = run_json("compare", source, tmp_path / target)
         assert found["max_error_relative"] <= 0.01
         assert set(found["attributes"]) == set(bounds)

@@ -40,7 +40,9 @@ def meshes(tmp_path_factory):
 @pytest.fixture(scope="module")
 def streams(meshes, tmp_path_factory):
     folder = tmp_path_factory.mktemp("streams")
-    assert main(["encode", "-q", *map(str, sorted(meshes.iterdir())), "-o", str(folder), *SMALL]) == 0
+    assert (
+        main(["encode", "-q", *map(str, sorted(meshes.iterdir())), "-o", str(folder), *SMALL]) == 0
+    )
     return folder
 
 
@@ -65,7 +67,17 @@ def test_there_and_back(meshes, tmp_path, jobs):
     assert [line.partition(" ->")[0] for line in each if " -> " in line] == list(map(str, inputs))
     assert summary.startswith(f"3 of 3 files, {taken} -> {given} bytes ({taken / given:.1f} : 1), ")
     assert (
-        bsm("decode", *(file["output"] for file in files), "-j", jobs, "-o", tmp_path, "--format", "npz").stdout == ""
+        bsm(
+            "decode",
+            *(file["output"] for file in files),
+            "-j",
+            jobs,
+            "-o",
+            tmp_path,
+            "--format",
+            "npz",
+        ).stdout
+        == ""
     )
     assert names(tmp_path) == ["a.npz", "b.npz", "c.npz", "new"]
     for path in inputs:
@@ -73,9 +85,16 @@ def test_there_and_back(meshes, tmp_path, jobs):
 
 
 def test_processes_write_the_same_bytes(meshes, streams, tmp_path):
-    assert bsm("encode", "-q", *sorted(meshes.iterdir()), "-j", 3, "-o", tmp_path, *SMALL[:4]).returncode == 0
+    assert (
+        bsm(
+            "encode", "-q", *sorted(meshes.iterdir()), "-j", 3, "-o", tmp_path, *SMALL[:4]
+        ).returncode
+        == 0
+    )
     assert names(tmp_path) == names(streams)
-    assert all((tmp_path / name).read_bytes() == (streams / name).read_bytes() for name in names(tmp_path))
+    assert all(
+        (tmp_path / name).read_bytes() == (streams / name).read_bytes() for name in names(tmp_path)
+    )
 
 
 @pytest.mark.parametrize("jobs", ["1", "2"])
@@ -86,8 +105,12 @@ def test_failures_are_reported_and_the_others_go_on(streams, tmp_path, jobs):
     assert done.returncode == 12, "the code of the first failure"
     assert [file.get("exit") for file in json.loads(done.stdout)["files"]] == [None, 12, 9, None]
     lines = map(json.loads, done.stderr.splitlines())
-    notes = [line.get("note") or line["error"] for line in lines if "stage" not in line]  # how far it has come
-    assert f"{tmp_path / 'cut.bsm'}: " in notes[1] and f"{tmp_path / 'none.bsm'}: No such file" in notes[2]
+    # How far it has come.
+    notes = [line.get("note") or line["error"] for line in lines if "stage" not in line]
+    assert (
+        f"{tmp_path / 'cut.bsm'}: " in notes[1]
+        and f"{tmp_path / 'none.bsm'}: No such file" in notes[2]
+    )
     assert notes[-1].startswith("2 of 4 files")
 
 
@@ -122,7 +145,9 @@ def test_outputs_of_many_inputs(tmp_path):
     assert outputs([a, b], None) == [str(tmp_path / "a.bsm"), str(tmp_path / "b.bsm")]
 
 
-def test_outputs_that_the_user_did_not_name_are_not_written_through_links(meshes, streams, tmp_path):
+def test_outputs_that_the_user_did_not_name_are_not_written_through_links(
+    meshes, streams, tmp_path
+):
     precious = tmp_path / "precious"
     precious.write_text("precious")
     (tmp_path / "out").mkdir()
@@ -136,9 +161,15 @@ def test_outputs_that_the_user_did_not_name_are_not_written_through_links(meshes
         ("decode", streams / "a.bsm", "-o", tmp_path / "out"),
     ):
         refused = bsm(*words, "-f")
-        assert (refused.returncode, "is a symbolic link" in refused.stderr) == (2, True), (words, refused.stderr)
+        assert (refused.returncode, "is a symbolic link" in refused.stderr) == (2, True), (
+            words,
+            refused.stderr,
+        )
         assert precious.read_text() == "precious"
-    assert bsm("encode", "-f", meshes / "a.npz", "-o", tmp_path / "out" / "a.bsm", *SMALL).returncode == 0
+    assert (
+        bsm("encode", "-f", meshes / "a.npz", "-o", tmp_path / "out" / "a.bsm", *SMALL).returncode
+        == 0
+    )
     assert precious.read_bytes().startswith(b"\x89BSM")
 
 
@@ -151,7 +182,17 @@ def test_a_signal_leaves_no_half_file_and_no_process(number, code, tmp_path):
     for name in ("a", "b", "c"):
         save(knot(40_000), tmp_path / f"{name}.npz")
     output = tmp_path / "out"
-    command = [sys.executable, "-m", "bsm", "encode", *sorted(tmp_path.iterdir()), "-o", f"{output}/", "-j", "2"]
+    command = [
+        sys.executable,
+        "-m",
+        "bsm",
+        "encode",
+        *sorted(tmp_path.iterdir()),
+        "-o",
+        f"{output}/",
+        "-j",
+        "2",
+    ]
     with subprocess.Popen(
         [*command, "--set", "block-size=300", "--set", "keep=1"],
         cwd=ROOT,
@@ -188,7 +229,16 @@ run()
 
 
 @pytest.mark.parametrize(
-    "module", ["bsm.cli", "argparse", "bsm.ground.console", "bsm.commands.encode", "numpy", "bsm.codec", "msgpack"]
+    "module",
+    [
+        "bsm.cli",
+        "argparse",
+        "bsm.ground.console",
+        "bsm.commands.encode",
+        "numpy",
+        "bsm.codec",
+        "msgpack",
+    ],
 )
 def test_an_interrupt_in_the_first_moments(module, meshes):
     """Wherever it hits the imports, it is an interrupt and no traceback."""
@@ -226,7 +276,10 @@ def on_a_terminal(*arguments):
     ours, theirs = os.openpty()
     importlib.import_module("termios").tcsetwinsize(theirs, (24, 120))
     with subprocess.Popen(
-        [sys.executable, "-m", "bsm", *map(str, arguments)], cwd=ROOT, stdout=subprocess.PIPE, stderr=theirs
+        [sys.executable, "-m", "bsm", *map(str, arguments)],
+        cwd=ROOT,
+        stdout=subprocess.PIPE,
+        stderr=theirs,
     ) as process:
         os.close(theirs)
         shown = b""
@@ -243,7 +296,16 @@ def on_a_terminal(*arguments):
 @pytest.mark.slow
 def test_one_bar_for_a_search_with_the_time_left(tmp_path):
     save(knot(80_000), tmp_path / "a.npz")
-    words = ["encode", tmp_path / "a.npz", "-o", tmp_path / "a.bsm", "--set", "keep=0.3", "--threads", "1"]
+    words = [
+        "encode",
+        tmp_path / "a.npz",
+        "-o",
+        tmp_path / "a.bsm",
+        "--set",
+        "keep=0.3",
+        "--threads",
+        "1",
+    ]
     shown = on_a_terminal(*words, "--theta", "4")
     assert re.search(r"encoding: +\d+%", shown) and "<00:" in shown
     *frames, result = shown.replace("\r\n", "\n").rstrip("\n").split("\r")
@@ -261,7 +323,16 @@ def test_a_bar_for_sequences(tmp_path):
     positions, faces = mesh.positions, mesh.faces
     frames = np.array([positions * (1 + 0.1 * np.sin(t / 3)) for t in range(12)])
     np.savez(tmp_path / "a.npz", positions=frames, faces=faces)
-    words = ["encode", tmp_path / "a.npz", "-o", tmp_path / "a.bsm", "--set", "keep=1", "--set", "block-size=200"]
+    words = [
+        "encode",
+        tmp_path / "a.npz",
+        "-o",
+        tmp_path / "a.bsm",
+        "--set",
+        "keep=1",
+        "--set",
+        "block-size=200",
+    ]
     shown = on_a_terminal(*words, "--threads", "1")
     assert re.search(r"encoding: +\d+%", shown) and "KG error" in shown
 
@@ -294,16 +365,27 @@ def corpus(tmp_path):
 def test_inputs_that_differ_in_their_suffix_alone_keep_it(corpus, tmp_path):
     done = bsm("encode", "-r", corpus, "-o", tmp_path / "out", "--report", corpus / "r.json")
     assert done.returncode == 12
-    assert sorted(path.name for path in (tmp_path / "out").iterdir()) == ["other.bsm", "part.obj.bsm", "part.off.bsm"]
+    assert sorted(path.name for path in (tmp_path / "out").iterdir()) == [
+        "other.bsm",
+        "part.obj.bsm",
+        "part.off.bsm",
+    ]
     report = json.loads((corpus / "r.json").read_text())
-    outputs = {entry["input"].rpartition("/")[2]: entry["output"].rpartition("/")[2] for entry in report["files"]}
+    outputs = {
+        entry["input"].rpartition("/")[2]: entry["output"].rpartition("/")[2]
+        for entry in report["files"]
+    }
     assert outputs["part.obj"] == "part.obj.bsm" and outputs["other.off"] == "other.bsm"
     lines = done.stderr.splitlines()
     head = next(number for number, line in enumerate(lines) if line.startswith("input "))
     assert "broken.off" in lines[head + 1] and lines[head + 1].count("broken.off") == 1
     assert "failed: the file is cut short" in lines[head + 1]
-    again = bsm("encode", "-r", corpus, "-o", tmp_path / "out", "--report", corpus / "r.json", "--resume")
-    assert "3 of 4 were up to date" in again.stderr and "as it was" not in again.stderr.splitlines()[0]
+    again = bsm(
+        "encode", "-r", corpus, "-o", tmp_path / "out", "--report", corpus / "r.json", "--resume"
+    )
+    assert (
+        "3 of 4 were up to date" in again.stderr and "as it was" not in again.stderr.splitlines()[0]
+    )
 
 
 def keys_of(facts, listed, before=""):
@@ -318,8 +400,22 @@ def keys_of(facts, listed, before=""):
 def test_the_documents_list_all_keys_of_reports_and_of_info(corpus, meshes, tmp_path):
     listed = re.findall(r"^\| `([\w.]+)`", (ROOT / "docs/json.md").read_text(), re.MULTILINE)
     save(painted(knot(100)), corpus / "painted.obj")
-    np.savez(tmp_path / "moving.npz", positions=np.stack([knot(100).positions] * 2), faces=knot(100).faces)
-    encode = ("encode", "-r", corpus, "-o", tmp_path / "out", "--max-error", "0.1mm", "--meta", "unit=mm")
+    np.savez(
+        tmp_path / "moving.npz",
+        positions=np.stack([knot(100).positions] * 2),
+        faces=knot(100).faces,
+    )
+    encode = (
+        "encode",
+        "-r",
+        corpus,
+        "-o",
+        tmp_path / "out",
+        "--max-error",
+        "0.1mm",
+        "--meta",
+        "unit=mm",
+    )
     moving = ("encode", "-f", tmp_path / "moving.npz", "-o", tmp_path / "out/moving.bsm")
     decode = ("decode", "-f", "-r", tmp_path / "out", "-o", tmp_path / "back")
     denoise = ("denoise", "-f", meshes / "a.npz", "-o", tmp_path / "a.npz", "--look")
@@ -331,27 +427,43 @@ def test_the_documents_list_all_keys_of_reports_and_of_info(corpus, meshes, tmp_
         facts += report["files"]
     facts.append(program.run_json("glb", meshes / "a.npz", "-o", tmp_path / "a.glb"))
     assert facts[-1]["output_bytes"] == (tmp_path / "a.glb").stat().st_size
-    facts += [program.run_json("info", tmp_path / name) for name in ("out/painted.bsm", "out/moving.bsm", "a.glb")]
+    facts += [
+        program.run_json("info", tmp_path / name)
+        for name in ("out/painted.bsm", "out/moving.bsm", "a.glb")
+    ]
     assert {key for each in facts for key in keys_of(each, listed)} == {*listed}
 
 
 def test_a_table_has_failures_first_and_then_the_largest_errors_in_one_unit():
-    files = [{"input": f"{n}.ply", "max_error_relative": n / 1e4, "max_error": 2.0, "unit": "mm"} for n in range(99)]
+    files = [
+        {"input": f"{n}.ply", "max_error_relative": n / 1e4, "max_error": 2.0, "unit": "mm"}
+        for n in range(99)
+    ]
     bad = {"input": "x", "output": "", "error": "x: bad"}
     lines = list(table([*files, bad]))
     assert lines[1].endswith("failed: bad") and lines[2].startswith("98.ply") and "2 mm" in lines[2]
     assert len(lines) == 22 and lines[-1] == "and 80 more, with smaller errors, in the report"
-    assert "0.98 %" in next(line for line in table([*files, {**files[0], "unit": "m"}]) if line.startswith("98.ply"))
+    assert "0.98 %" in next(
+        line for line in table([*files, {**files[0], "unit": "m"}]) if line.startswith("98.ply")
+    )
     assert len(list(table([*files[:9], *[bad] * 50]))) == 1 + 50 + 1
 
 
 def test_patterns_behind_file_urls_are_expanded(corpus, tmp_path):
     jobs = plan([f"file://{corpus}/*.off"], f"file://{tmp_path}/out/", lambda _: ".bsm")
-    assert [job.output.rpartition("/")[2] for job in jobs] == ["broken.bsm", "other.bsm", "part.bsm"]
+    assert [job.output.rpartition("/")[2] for job in jobs] == [
+        "broken.bsm",
+        "other.bsm",
+        "part.bsm",
+    ]
     with pytest.raises(FileNotFoundError, match="no such file"):
         plan([f"file://{corpus}/*.xyz"], None, lambda _: ".bsm")
     with pytest.raises(OptionError, match="two outputs"):
-        plan([str(corpus / "part.off"), str(corpus / "part.off")], f"{tmp_path}/out/", lambda _: ".bsm")
+        plan(
+            [str(corpus / "part.off"), str(corpus / "part.off")],
+            f"{tmp_path}/out/",
+            lambda _: ".bsm",
+        )
 
 
 def test_a_server_that_is_down_differs_from_a_missing_file():
@@ -367,7 +479,9 @@ def test_a_server_that_is_down_differs_from_a_missing_file():
 def test_with_json_every_line_of_standard_error_is_json(corpus, tmp_path, name):
     done = bsm("encode", corpus / name, corpus / "part.obj", "-o", f"{tmp_path}/", "--json")
     lines = [json.loads(line) for line in done.stderr.splitlines()]
-    assert lines and all({*line} <= {"note", "error", "stage", "share", "seconds", "seconds_left"} for line in lines)
+    assert lines and all(
+        {*line} <= {"note", "error", "stage", "share", "seconds", "seconds_left"} for line in lines
+    )
     json.loads(done.stdout)
     alone = bsm("encode", corpus / name, "-o", tmp_path / "a.bsm", "--json")
     assert [json.loads(line) for line in alone.stderr.splitlines()]

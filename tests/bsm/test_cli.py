@@ -28,7 +28,19 @@ def folder(tmp_path_factory, mesh):
     """A folder with sample.ply and its stream."""
     folder = tmp_path_factory.mktemp("cli")
     save(mesh, folder / "sample.ply")
-    assert main(["encode", str(folder / "sample.ply"), "-q", "--permutation", str(folder / "order.npy"), *SMALL]) == 0
+    assert (
+        main(
+            [
+                "encode",
+                str(folder / "sample.ply"),
+                "-q",
+                "--permutation",
+                str(folder / "order.npy"),
+                *SMALL,
+            ]
+        )
+        == 0
+    )
     return folder
 
 
@@ -73,11 +85,18 @@ def test_info_adds_up(folder, capsys, mesh):
         (["--set", "step=0.004"], " blocks of ", "paper"),
         (["--set", "step=0.004"], "\n    blocks  ", "grid"),
         (["--set", "bits=12"], " by the paper's formula\n", "refinement"),
-        (["--preset", "paper"], "\npreset paper: R^2, iterations 1, 12 bits a coefficient, METIS", "refinement"),
+        (
+            ["--preset", "paper"],
+            "\npreset paper: R^2, iterations 1, 12 bits a coefficient, METIS",
+            "refinement",
+        ),
     ],
 )
 def test_info_tells_how_positions_are_coded(folder, tmp_path, capsys, options, expected, absent):
-    assert main(["encode", str(folder / "sample.ply"), "-q", "-o", str(tmp_path / "a.bsm"), *options]) == 0
+    assert (
+        main(["encode", str(folder / "sample.ply"), "-q", "-o", str(tmp_path / "a.bsm"), *options])
+        == 0
+    )
     assert main(["info", str(tmp_path / "a.bsm")]) == 0
     text = capsys.readouterr().out
     assert expected in text and absent not in text
@@ -104,7 +123,9 @@ def test_some_blocks_are_a_part_of_the_mesh(folder, tmp_path):
     blocks = run_json("info", folder / "sample.bsm")["blocks"]
     whole = run_json("decode", folder / "sample.bsm", "-o", tmp_path / "all.ply")
     faces = [
-        run_json("decode", folder / "sample.bsm", "-o", tmp_path / f"{count}.ply", "--blocks", count)["faces"]
+        run_json(
+            "decode", folder / "sample.bsm", "-o", tmp_path / f"{count}.ply", "--blocks", count
+        )["faces"]
         for count in range(1, blocks + 2)
     ]
     assert faces == sorted(faces)
@@ -196,9 +217,15 @@ def test_scipy_is_asked_for_where_it_is_needed(words, folder, tmp_path):
     ],
 )
 def test_what_the_shell_has_closed(folder, tmp_path, words, code, message):
-    places = {"stream": folder / "sample.bsm", "mesh": folder / "sample.ply", "new": tmp_path / "a.bsm"}
+    places = {
+        "stream": folder / "sample.bsm",
+        "mesh": folder / "sample.ply",
+        "new": tmp_path / "a.bsm",
+    }
     command = f"'{sys.executable}' -m bsm {words.format(**places)}"
-    done = subprocess.run(["bash", "-c", command], capture_output=True, timeout=120, check=False, cwd=ROOT)
+    done = subprocess.run(
+        ["bash", "-c", command], capture_output=True, timeout=120, check=False, cwd=ROOT
+    )
     assert (done.returncode, done.stderr.count(b"\n")) == (code, message.count(b"\n"))
     assert done.stderr.endswith(message)
 
@@ -213,7 +240,9 @@ def test_the_help_prints_the_table_of_codes_and_starts_fast(folder):
     assert all(f"{row.code:>3}  {row.meaning}" in text for row in EXITS)
     assert all(f"    {name}" in text for name in COMMANDS)
     program = "import sys; from bsm.cli import main; main(['info', sys.argv[1]]); sys.exit('codec' in sys.modules)"
-    assert python("-c", program, folder / "sample.bsm").returncode == 0, "bsm info needs no mathematics"
+    assert python("-c", program, folder / "sample.bsm").returncode == 0, (
+        "bsm info needs no mathematics"
+    )
 
 
 def test_the_flags_are_fields_and_show_their_defaults():
@@ -222,7 +251,9 @@ def test_the_flags_are_fields_and_show_their_defaults():
     # A field of both has the static default: it is the one that is shown.
     owners = (SequenceOptions, EncodeOptions, Paper)
     defaults = {field.name: field.default for owner in owners for field in fields(owner)}
-    assert all(defaults[flag.field] is not MISSING for flag in (*FLAGS["coding"], *FLAGS["settings"]))
+    assert all(
+        defaults[flag.field] is not MISSING for flag in (*FLAGS["coding"], *FLAGS["settings"])
+    )
     for flag in (*FLAGS["coding"], *FLAGS["settings"]):
         default = defaults[flag.field]
         shown = flag.help.partition("(default")[2]
@@ -235,9 +266,23 @@ def test_the_flags_are_fields_and_show_their_defaults():
 @pytest.mark.parametrize(
     "words",
     [
-        *(("encode", "a.ply", "-o", ""), ("encode", ""), ("encode", "a.ply", ""), ("decode", "", "-o", "b.ply")),
-        *(("info", ""), ("glb", "a.glb", "-o", ""), ("tile", "a.ply", "-o", ""), ("compare", "", "a.ply")),
-        *(("encode", "a.ply", "--report", ""), ("view", "a.ply", "--save", ""), ("denoise", "a.ply", "-o", "")),
+        *(
+            ("encode", "a.ply", "-o", ""),
+            ("encode", ""),
+            ("encode", "a.ply", ""),
+            ("decode", "", "-o", "b.ply"),
+        ),
+        *(
+            ("info", ""),
+            ("glb", "a.glb", "-o", ""),
+            ("tile", "a.ply", "-o", ""),
+            ("compare", "", "a.ply"),
+        ),
+        *(
+            ("encode", "a.ply", "--report", ""),
+            ("view", "a.ply", "--save", ""),
+            ("denoise", "a.ply", "-o", ""),
+        ),
     ],
 )
 def test_an_empty_name_is_an_error(words, tmp_path, monkeypatch):

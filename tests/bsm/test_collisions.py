@@ -10,13 +10,45 @@ from bsm.files import output
 from tests.bsm.program import bsm
 
 NO_FILES = {
-    *("N", "K", "H", "S", "X,Y,Z", "X,Y,Z,X,Y,Z", "A:B", "NAME", "NAME=TEXT", "NAME=HOW", "NAME=VALUE", "FIELD=VALUE"),
+    *(
+        "N",
+        "K",
+        "H",
+        "S",
+        "X,Y,Z",
+        "X,Y,Z,X,Y,Z",
+        "A:B",
+        "NAME",
+        "NAME=TEXT",
+        "NAME=HOW",
+        "NAME=VALUE",
+        "FIELD=VALUE",
+    ),
     "NAME=QUALITY",
     "quick|normal|best",
-    *("ADDRESS", "LIST", "RULE", "FRACTION", "SIZE", "DEGREES", "DB", "PERCENT", "FORMAT", "TEXT", "FPS", "UNIT"),
+    *(
+        "ADDRESS",
+        "LIST",
+        "RULE",
+        "FRACTION",
+        "SIZE",
+        "DEGREES",
+        "DB",
+        "PERCENT",
+        "FORMAT",
+        "TEXT",
+        "FPS",
+        "UNIT",
+    ),
 }
 OUTPUTS = ("{}", "./{}", "link", "hard", "file://{}")
-SUFFIX = {"OUT.glb": ".glb", "FILE.png": ".png", "PAGE.html": ".html", "FILE.json": ".json", "FILE.npy": ".npy"}
+SUFFIX = {
+    "OUT.glb": ".glb",
+    "FILE.png": ".png",
+    "PAGE.html": ".html",
+    "FILE.json": ".json",
+    "FILE.npy": ".npy",
+}
 
 
 def files_of(command):
@@ -36,8 +68,13 @@ def test_every_option_with_a_word_of_its_own_is_a_file_or_known_to_be_none(comma
     for action in command_parser(command)._actions:
         if action.nargs == 0 or action.choices or action.type not in (None, str):
             continue
-        if isinstance(action, argparse._StoreAction | argparse._AppendAction) and action.metavar not in FILES:
-            assert action.metavar in NO_FILES, f"{command} {action.option_strings}: is {action.metavar} a file?"
+        if (
+            isinstance(action, argparse._StoreAction | argparse._AppendAction)
+            and action.metavar not in FILES
+        ):
+            assert action.metavar in NO_FILES, (
+                f"{command} {action.option_strings}: is {action.metavar} a file?"
+            )
 
 
 @pytest.mark.parametrize("form", OUTPUTS)
@@ -56,11 +93,23 @@ def test_an_output_never_replaces_an_input(tmp_path, monkeypatch, form):
                 os.link(precious, tmp_path / "hard")
                 named = form.format(precious if "file:" in form else precious.name)
                 others = [
-                    word for path in reads if path is not reading and path.required for word in words(path, "other.ply")
+                    word
+                    for path in reads
+                    if path is not reading and path.required
+                    for word in words(path, "other.ply")
                 ]
-                line = [command, "-f", *words(reading, str(precious)), *others, *words(writing, named)]
+                line = [
+                    command,
+                    "-f",
+                    *words(reading, str(precious)),
+                    *others,
+                    *words(writing, named),
+                ]
                 done = bsm(*line, text=True)
-                assert done.returncode == 2 and "would replace the input" in done.stderr, (line, done.stderr)
+                assert done.returncode == 2 and "would replace the input" in done.stderr, (
+                    line,
+                    done.stderr,
+                )
                 assert precious.read_bytes() == b"precious"
                 tried += 1
     assert tried >= 15
@@ -75,13 +124,21 @@ def test_two_outputs_never_have_one_name(tmp_path, monkeypatch):
             for second in writes[:number]:
                 for names in (("same", "./same"), ("-", "/dev/stdout"), ("sub/../same", "same")):
                     (tmp_path / "sub").mkdir(exist_ok=True)
-                    line = [command, "-f", *(word for path in reads if path.required for word in words(path, "in.ply"))]
+                    line = [
+                        command,
+                        "-f",
+                        *(
+                            word
+                            for path in reads
+                            if path.required
+                            for word in words(path, "in.ply")
+                        ),
+                    ]
                     line += [*words(first, names[0]), *words(second, names[1])]
                     done = bsm(*line, text=True)
-                    assert done.returncode == 2 and "two outputs would have the name" in done.stderr, (
-                        line,
-                        done.stderr,
-                    )
+                    assert (
+                        done.returncode == 2 and "two outputs would have the name" in done.stderr
+                    ), (line, done.stderr)
                     tried += 1
     assert tried >= 9
 
@@ -104,6 +161,8 @@ def test_what_follows_from_an_input_is_no_report_either(tmp_path):
 
 def test_files_are_read_or_written():
     parser = command_parser("encode")
-    args = parser.parse_command(["a.ply", "b.ply", "-o", "out/", "--report", "r.json", "--mesh", "m.obj"])
+    args = parser.parse_command(
+        ["a.ply", "b.ply", "-o", "out/", "--report", "r.json", "--mesh", "m.obj"]
+    )
     reads, writes = named_files("encode", parser, args)
     assert reads == ["a.ply", "b.ply", "m.obj"] and writes == ["r.json"]

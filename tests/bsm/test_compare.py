@@ -7,7 +7,16 @@ import numpy as np
 import pytest
 
 import bsm
-from bsm import Attribute, EncodeOptions, Encoder, FormatError, MeshError, TriangleMesh, decode, read_mesh
+from bsm import (
+    Attribute,
+    EncodeOptions,
+    Encoder,
+    FormatError,
+    MeshError,
+    TriangleMesh,
+    decode,
+    read_mesh,
+)
 from bsm.account.comparison import in_order_of, read_permutation, reorder, write_permutation
 from bsm.cli import main
 from bsm.codec.look.measure import LOOK_VERSION, LookMetric
@@ -41,7 +50,10 @@ def test_the_command_says_what_python_says(files, capsys):
     assert main(["compare", str(files / "a.ply"), str(files / "b.bsm"), "--look"]) == 0
     assert (found["folded_before"], found["folded_after"]) == (0, 0)
     lines = capsys.readouterr().out.splitlines()[-2:]
-    assert lines[0].startswith(f"look               {seen.distance:.6g} ") and "look distance" in lines[0]
+    assert (
+        lines[0].startswith(f"look               {seen.distance:.6g} ")
+        and "look distance" in lines[0]
+    )
     assert lines[1].startswith("look_flat          ")
 
 
@@ -59,7 +71,9 @@ def test_a_picture_shows_both_and_the_difference(files):
     with image.open(target) as picture:
         assert picture.size == (3 * 384, 432)
         colors = np.asarray(picture.convert("RGB")).astype(int)
-    assert (np.ptp(colors[60:300, :384], axis=2) < 30).all() and colors[60:300, :384].min() < 150, "a gray mesh"
+    assert (np.ptp(colors[60:300, :384], axis=2) < 30).all() and colors[60:300, :384].min() < 150, (
+        "a gray mesh"
+    )
     assert np.ptp(colors[60:300, 768:], axis=2).max() > 100, "errors in colors"
     again = ["compare", str(files / "a.ply"), str(files / "b.bsm"), "--picture", str(target)]
     assert main(again) != 0
@@ -69,7 +83,18 @@ def test_a_picture_shows_both_and_the_difference(files):
 def test_a_picture_needs_no_library(files, monkeypatch):
     monkeypatch.setitem(sys.modules, "PIL", None)
     monkeypatch.setitem(sys.modules, "PIL.Image", None)
-    assert main(["compare", str(files / "a.ply"), str(files / "b.bsm"), "--picture", str(files / "own.png")]) == 0
+    assert (
+        main(
+            [
+                "compare",
+                str(files / "a.ply"),
+                str(files / "b.bsm"),
+                "--picture",
+                str(files / "own.png"),
+            ]
+        )
+        == 0
+    )
     assert (files / "own.png").read_bytes().startswith(b"\x89PNG")
 
 
@@ -79,7 +104,9 @@ def test_what_has_no_area_is_a_sentence(files, capsys):
     assert "cannot be looked at" in capsys.readouterr().err
 
 
-def test_triangles_without_area_and_vertices_at_one_place_are_counted_beyond_the_inputs(tmp_path, capsys):
+def test_triangles_without_area_and_vertices_at_one_place_are_counted_beyond_the_inputs(
+    tmp_path, capsys
+):
     faces = [(0, 1, 2), (2, 1, 3), (0, 2, 4), (4, 2, 3), (0, 1, 5)]
     before = np.array(
         [(0, 0, 0), (1, 0, 0), (0.4, 0.1, 0), (1, 1, 0), (0, 1, 0), (2, 0, 0)]
@@ -165,10 +192,18 @@ def test_faces_that_collapsed_are_told_apart():
 
 def test_an_attribute_of_another_name_is_found_by_its_meaning():
     shape, values = torus(8, 6), np.linspace(0.0, 1.0, 96, dtype=np.float32).reshape(48, 2)
-    given = replace(shape, attributes=(Attribute("texcoord", values, semantic="texcoord"), Attribute("heat", values)))
-    uv, heat = Attribute("uv", values + np.float32(0.5), semantic="texcoord"), Attribute("warmth", values)
+    given = replace(
+        shape,
+        attributes=(Attribute("texcoord", values, semantic="texcoord"), Attribute("heat", values)),
+    )
+    uv, heat = (
+        Attribute("uv", values + np.float32(0.5), semantic="texcoord"),
+        Attribute("warmth", values),
+    )
     errors = bsm.compare(given, replace(shape, attributes=(heat, uv))).attributes
-    assert errors["texcoord"] is not None and errors["texcoord"].max_error == pytest.approx(0.5, abs=1e-6)
+    assert errors["texcoord"] is not None and errors["texcoord"].max_error == pytest.approx(
+        0.5, abs=1e-6
+    )
     assert errors["heat"] is None
 
 
@@ -196,7 +231,10 @@ def test_vertices_that_were_made_one_are_compared_with_that_one():
 
 
 def test_an_order_counts_vertices_that_no_face_uses(tmp_path):
-    apart, near = np.full((2, 3), 9.0), np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 0, 0], [1, 1, 0.2], [0, 1, 0]])
+    apart, near = (
+        np.full((2, 3), 9.0),
+        np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 0, 0], [1, 1, 0.2], [0, 1, 0]]),
+    )
     mesh = TriangleMesh(np.concatenate([apart, near]), [[2, 3, 4], [5, 6, 7]])
     for keep in (False, True):
         encoder = Encoder(mesh, EncodeOptions(grid=10, keep_order=keep))
@@ -223,7 +261,9 @@ def test_vertices_that_differ_in_the_sign_of_zero_are_as_many_as_the_encoder_kee
     decoded = decode(encoder.encode())
     found = bsm.compare(mesh, decoded, order=encoder.vertex_order)
     assert found.max_error_relative < 1e-3
-    assert len(decoded.positions) == len(np.unique(mesh.positions[np.unique(faces)], axis=0)) + (preset == "lossless")
+    assert len(decoded.positions) == len(np.unique(mesh.positions[np.unique(faces)], axis=0)) + (
+        preset == "lossless"
+    )
 
 
 def test_a_mesh_that_a_file_split_is_compared_where_rounding_merged_vertices():
@@ -249,7 +289,9 @@ def test_other_axes_and_units_are_named(tmp_path, capsys):
 @pytest.mark.parametrize("suffix", ["ply", "glb", "obj"])
 def test_colors_are_compared_as_shares_where_one_has_bytes(tmp_path, suffix):
     ring = torus(9, 6)
-    shares = np.linspace(0.0, 1.0, len(ring.positions), dtype=np.float32)[:, None] * np.ones(3, np.float32)
+    shares = np.linspace(0.0, 1.0, len(ring.positions), dtype=np.float32)[:, None] * np.ones(
+        3, np.float32
+    )
     painted = replace(ring, attributes=(Attribute("color", shares, "vertex", "color"),))
     bsm.save(painted, tmp_path / f"a.{suffix}")
     found = bsm.compare(painted, tmp_path / f"a.{suffix}").attributes["color"]
@@ -260,7 +302,9 @@ def test_colors_are_compared_as_shares_where_one_has_bytes(tmp_path, suffix):
 def test_meshes_of_any_size_are_compared_alike_or_not_at_all(size):
     positions, faces = torus(8, 6).positions, torus(8, 6).faces
     moved = positions + np.random.default_rng(0).normal(0.0, 0.01, positions.shape)
-    expected, found = (bsm.compare((scale * positions, faces), (scale * moved, faces)) for scale in (1.0, size))
+    expected, found = (
+        bsm.compare((scale * positions, faces), (scale * moved, faces)) for scale in (1.0, size)
+    )
     assert found.theta_deg == pytest.approx(expected.theta_deg)
     assert found.nmsve == pytest.approx(expected.nmsve)
     assert found.max_error_relative == pytest.approx(expected.max_error_relative)
@@ -277,12 +321,18 @@ def test_faces_whose_normals_are_rounding_count_nowhere(turn):
     needles = np.tile([(3.0, 0.0, 0.0), (4.0, 0.0, 0.0), (4.0, 1e-11, 0.0)], (10, 1)) + np.repeat(
         np.eye(10)[:, :1], 3, 0
     )
-    positions, faces = np.concatenate([mesh.positions, needles]), np.concatenate([mesh.faces, far]).astype(np.int32)
+    positions, faces = (
+        np.concatenate([mesh.positions, needles]),
+        np.concatenate([mesh.faces, far]).astype(np.int32),
+    )
     turned = np.roll(faces, turn, axis=1)
     assert bsm.compare((positions, turned), (positions, faces)).theta_deg == 0.0
     moved = positions + 1e-3 * np.sin(9.0 * positions)
     moved[far] = positions[far]
-    found, bare = bsm.compare((positions, turned), (moved, faces)), bsm.compare(mesh, (moved[: far[0, 0]], mesh.faces))
+    found, bare = (
+        bsm.compare((positions, turned), (moved, faces)),
+        bsm.compare(mesh, (moved[: far[0, 0]], mesh.faces)),
+    )
     assert found.theta_deg == pytest.approx(bare.theta_deg)
     assert found.angle_deg == pytest.approx(bare.angle_deg)
 
@@ -292,7 +342,9 @@ def test_vertices_that_single_precision_makes_one_are_compared():
     apart = np.concatenate([mesh.positions, mesh.positions[:1] * (1 + 1e-9)])
     faces = mesh.faces.copy()
     faces[np.unravel_index(np.argmax(faces == 0), faces.shape)] = len(mesh.positions)
-    color = Attribute("color", np.arange(3 * len(apart)).reshape(-1, 3).astype(np.uint16), "vertex", "color")
+    color = Attribute(
+        "color", np.arange(3 * len(apart)).reshape(-1, 3).astype(np.uint16), "vertex", "color"
+    )
     given = TriangleMesh(apart, faces, (color,))
     found = bsm.compare(given, bsm.encode(given, preset="lossless"))
     assert 0.0 < found.max_error_relative < 1e-7
@@ -301,8 +353,15 @@ def test_vertices_that_single_precision_makes_one_are_compared():
 
 def test_the_line_of_encode_counts_faces_without_area_as_compare_does(files, capsys):
     found = run_json("encode", files / "a.ply", "-o", files / "flat.bsm", "--grid", "3")
-    assert found["flattened"] == run_json("compare", files / "a.ply", files / "flat.bsm")["flattened"] > 0
-    assert main(["encode", str(files / "a.ply"), "-o", str(files / "flat.bsm"), "-f", "--grid", "3"]) == 0
+    assert (
+        found["flattened"]
+        == run_json("compare", files / "a.ply", files / "flat.bsm")["flattened"]
+        > 0
+    )
+    assert (
+        main(["encode", str(files / "a.ply"), "-o", str(files / "flat.bsm"), "-f", "--grid", "3"])
+        == 0
+    )
     assert f", {found['flattened']} triangles flattened by rounding" in capsys.readouterr().err
     assert run_json("encode", files / "a.ply", "-o", files / "kept.bsm")["flattened"] == 0
     assert main(["encode", str(files / "a.ply"), "-o", str(files / "kept.bsm"), "-f"]) == 0

@@ -36,7 +36,11 @@ WIDE = 20.0  # times the stated time that a busy machine may take
 
 def stated(what: str) -> tuple[float, float, float]:
     """Return the fixed bytes, the bytes a triangle and the seconds a triangle that `SERVICE.md` states."""
-    row = re.search(rf"^\| {what} \| (\d+) MiB \+ (\d+) bytes a triangle \| ([\d.]+) us a triangle", text(), re.M)
+    row = re.search(
+        rf"^\| {what} \| (\d+) MiB \+ (\d+) bytes a triangle \| ([\d.]+) us a triangle",
+        text(),
+        re.M,
+    )
     assert row is not None, f"no costs of {what}"
     return float(row[1]) * 2**20, float(row[2]), float(row[3]) * 1e-6
 
@@ -58,10 +62,15 @@ def costs(what: str, path: Path, **options: object) -> tuple[float, float]:
 @pytest.mark.parametrize("rows", [316, 708])  # 200,000 triangles, and a million
 def test_large_meshes_take_what_is_stated(rows: int, tmp_path: Path) -> None:
     smooth = torus(rows, rows)
-    bumps = 1.0 + 0.03 * np.sin(9.0 * smooth.positions[:, [1, 2, 0]]) + 0.02 * np.cos(17.0 * smooth.positions)
+    bumps = (
+        1.0
+        + 0.03 * np.sin(9.0 * smooth.positions[:, [1, 2, 0]])
+        + 0.02 * np.cos(17.0 * smooth.positions)
+    )
     positions = smooth.positions * bumps
     edge = float(np.linalg.norm(positions[0] - positions[1]))
-    positions += np.random.default_rng(1).normal(scale=0.03 * edge, size=positions.shape)  # as of a scan
+    # As of a scan.
+    positions += np.random.default_rng(1).normal(scale=0.03 * edge, size=positions.shape)
     faces = len(smooth.faces)
     write_ply(tmp_path / "scan.ply", positions, smooth.faces)
     write_obj(tmp_path / "scan.obj", positions, smooth.faces)
@@ -74,10 +83,14 @@ def test_large_meshes_take_what_is_stated(rows: int, tmp_path: Path) -> None:
     )
     for name, what, file, options in calls:
         memory, seconds = costs(what, tmp_path / file, **options)
-        print(f"{faces} triangles, {name}: {memory / faces:.0f} bytes and {1e6 * seconds / faces:.1f} us a triangle")
+        print(
+            f"{faces} triangles, {name}: {memory / faces:.0f} bytes and {1e6 * seconds / faces:.1f} us a triangle"
+        )
         fixed, each, time = stated(name)
         assert memory <= fixed + each * faces, f"{name}: {memory / faces:.0f} bytes a triangle"
-        assert seconds <= WIDE * (1.0 + time * faces), f"{name}: {1e6 * seconds / faces:.1f} us a triangle"
+        assert seconds <= WIDE * (1.0 + time * faces), (
+            f"{name}: {1e6 * seconds / faces:.1f} us a triangle"
+        )
 
 
 def write_ply(path: Path, positions: np.ndarray, faces: np.ndarray) -> None:
@@ -91,4 +104,6 @@ def write_ply(path: Path, positions: np.ndarray, faces: np.ndarray) -> None:
 
 def write_obj(path: Path, positions: np.ndarray, faces: np.ndarray) -> None:
     points = "".join(f"v {x:.7g} {y:.7g} {z:.7g}\n" for x, y, z in positions.tolist())
-    path.write_text(points + "".join(f"f {a} {b} {c}\n" for a, b, c in (faces + 1).tolist()), "ascii")
+    path.write_text(
+        points + "".join(f"f {a} {b} {c}\n" for a, b, c in (faces + 1).tolist()), "ascii"
+    )

@@ -35,7 +35,9 @@ def stream() -> bytes:
     metadata = {"material.0.name": "skin", "material.0.map_Kd": 0, "image.0.name": "skin.png"}
     metadata["image.0.data"] = picture.getvalue()
     attributes = (Attribute("uv", coordinates.astype(np.float32), "vertex", "texcoord"),)
-    return bytes(bsm.encode(TriangleMesh(mesh.positions, mesh.faces, attributes, metadata), preset="grid14"))
+    return bytes(
+        bsm.encode(TriangleMesh(mesh.positions, mesh.faces, attributes, metadata), preset="grid14")
+    )
 
 
 def places(stream: bytes) -> dict[FrameType, tuple[int, int]]:
@@ -91,7 +93,10 @@ def test_tolerant_decoding_names_lost_attributes_materials_and_images(stream, tm
     notes = notes_on(with_damage(stream, where[FrameType.ATTRIBUTE][0]))
     assert "left out: 1 of 1 attributes, whose values are missing\n" in notes
     assert "left out: the image skin.png\n" in notes
-    for damaged in (with_damage(stream, where[FrameType.METADATA][0]), stream[: where[FrameType.METADATA][0]]):
+    for damaged in (
+        with_damage(stream, where[FrameType.METADATA][0]),
+        stream[: where[FrameType.METADATA][0]],
+    ):
         notes = notes_on(damaged)
         assert "left out: the image skin.png\n" in notes and "attribute" not in notes
         assert "left out: other entries of the damaged metadata\n" in notes
@@ -110,7 +115,9 @@ def test_no_advice_repeats_what_was_tried(stream, tmp_path, capsys):
     file.write_bytes(with_damage(stream, places(stream)[FrameType.CONNECTIVITY][0]))
     assert main(["decode", str(file), "-o", str(tmp_path / "a.ply"), "--tolerant"]) == 4
     error = capsys.readouterr().err
-    assert "--tolerant" not in error and error.strip().endswith("; no other part can be decoded without it")
+    assert "--tolerant" not in error and error.strip().endswith(
+        "; no other part can be decoded without it"
+    )
 
 
 def test_a_cut_stream_says_so_in_plain_words(stream, tmp_path, capsys):
@@ -120,14 +127,20 @@ def test_a_cut_stream_says_so_in_plain_words(stream, tmp_path, capsys):
     assert "the stream ends too early; get the rest of it" in capsys.readouterr().err
 
 
-@pytest.mark.parametrize("payload", [b"\x80", b"\xdf\xff\xff\xff\xff", b"\x91" * 3000, b"\x81\xa1a" + b"\x91" * 3000])
-def test_metadata_of_strangers_take_neither_memory_nor_a_traceback(stream, payload, tmp_path, capsys):
+@pytest.mark.parametrize(
+    "payload", [b"\x80", b"\xdf\xff\xff\xff\xff", b"\x91" * 3000, b"\x81\xa1a" + b"\x91" * 3000]
+)
+def test_metadata_of_strangers_take_neither_memory_nor_a_traceback(
+    stream, payload, tmp_path, capsys
+):
     """A section with a right checksum may hold anything, deep lists and long maps included."""
     from bsm.bitstream.container.wire import write_frame
 
     where = places(stream)
     cut = with_damage(stream, where[FrameType.VALUES][0])
-    end = stream.index(bytes(list(sections_of(stream))[-1].payload), where[FrameType.METADATA][0]) - 1
+    end = (
+        stream.index(bytes(list(sections_of(stream))[-1].payload), where[FrameType.METADATA][0]) - 1
+    )
     file = tmp_path / "a.bsm"
     file.write_bytes(cut[:end] + write_frame(FrameType.METADATA, payload) + cut[end:])
     assert main(["decode", str(file), "-o", str(tmp_path / "a.ply"), "--tolerant"]) == 0

@@ -41,7 +41,9 @@ def noisy_file(tmp_path_factory) -> Path:
 def frames() -> np.ndarray:
     """More frames than pass the coarse step together."""
     scales = np.linspace(1.0, 1.5, 11)
-    return np.stack([gaussian_along_normals(CLEAN.positions * s, CLEAN.faces, 0.2, seed=2) for s in scales])
+    return np.stack(
+        [gaussian_along_normals(CLEAN.positions * s, CLEAN.faces, 0.2, seed=2) for s in scales]
+    )
 
 
 def test_every_finish_has_words():
@@ -58,14 +60,18 @@ def test_without_options_it_says_what_it_chose(noisy_file, tmp_path):
     expected, choice = denoise_automatically(read_mesh(noisy_file).mesh.positions, CLEAN.faces)
     denoised = read_mesh(tmp_path / "out.obj").mesh
     assert np.allclose(denoised.positions, expected, atol=1e-6)
-    assert [step["iterations"] for step in result["automatic"]["steps"]] == [step.iterations for step in choice.steps]
+    assert [step["iterations"] for step in result["automatic"]["steps"]] == [
+        step.iterations for step in choice.steps
+    ]
     assert result["automatic"]["kind"] == "white"
     assert result["automatic"]["noise"]["normal"] == pytest.approx(0.25, rel=0.3)
     assert result["options"] is None
     assert f"{choice.steps[0].iterations} iterations" in ran.stderr
     assert f"{choice.noise.normal:.2f} edges" in ran.stderr
     assert choice.reason in ran.stderr
-    before, after = (theta(CLEAN.positions, positions, CLEAN.faces) for positions in (NOISY, denoised.positions))
+    before, after = (
+        theta(CLEAN.positions, positions, CLEAN.faces) for positions in (NOISY, denoised.positions)
+    )
     assert after < 0.5 * before
 
 
@@ -85,7 +91,11 @@ def test_a_clean_mesh_comes_back_with_a_sentence(tmp_path):
     assert ran.returncode == 0
     assert "unchanged  " in ran.stderr
     assert (read_mesh(tmp_path / "out.npz").mesh.positions == CLEAN.positions).all()
-    command = ran.stderr.split("choose a filter: bsm ")[1].splitlines()[0].replace("IN", str(tmp_path / "clean.npz"))
+    command = (
+        ran.stderr.split("choose a filter: bsm ")[1]
+        .splitlines()[0]
+        .replace("IN", str(tmp_path / "clean.npz"))
+    )
     assert bsm(*command.split(), "-o", tmp_path / "forced.npz").returncode == 0
     assert (read_mesh(tmp_path / "forced.npz").mesh.positions != CLEAN.positions).any()
 
@@ -93,7 +103,11 @@ def test_a_clean_mesh_comes_back_with_a_sentence(tmp_path):
 def test_a_mesh_that_stays_as_it_was_is_copied_with_what_it_names(tmp_path):
     (tmp_path / "out").mkdir()
     named = b"mtllib red.mtl\nusemtl red\n" + file_of(CLEAN, "obj") + b"# as it was\n"
-    files = {"red.mtl": b"newmtl red\nKd 1 0 0\n", "clean.obj": named, "clean.glb": file_of(CLEAN, "glb") + b"    "}
+    files = {
+        "red.mtl": b"newmtl red\nKd 1 0 0\n",
+        "clean.obj": named,
+        "clean.glb": file_of(CLEAN, "glb") + b"    ",
+    }
     for name, data in files.items():
         (tmp_path / name).write_bytes(data)
     for name in ("clean.obj", "clean.glb"):
@@ -101,13 +115,27 @@ def test_a_mesh_that_stays_as_it_was_is_copied_with_what_it_names(tmp_path):
         assert ran.returncode == 0 and "copied" in ran.stderr and "left out" not in ran.stderr
     assert {name: (tmp_path / "out" / name).read_bytes() for name in files} == files
     (tmp_path / "red.mtl").unlink()
-    assert "left out: red.mtl" in bsm("denoise", tmp_path / "clean.obj", "-o", tmp_path / "out" / "b.obj").stderr
-    assert "copied" not in bsm("denoise", tmp_path / "clean.obj", "-o", tmp_path / "out" / "c.off").stderr
+    assert (
+        "left out: red.mtl"
+        in bsm("denoise", tmp_path / "clean.obj", "-o", tmp_path / "out" / "b.obj").stderr
+    )
+    assert (
+        "copied"
+        not in bsm("denoise", tmp_path / "clean.obj", "-o", tmp_path / "out" / "c.off").stderr
+    )
 
 
 def test_harm_has_an_exit_code_of_its_own_and_writes_nothing_unless_forced(tmp_path):
     save(CLEAN, tmp_path / "clean.npz")
-    arguments = ("denoise", tmp_path / "clean.npz", "-o", tmp_path / "out.npz", "--keep", "0.05", *FEW)
+    arguments = (
+        "denoise",
+        tmp_path / "clean.npz",
+        "-o",
+        tmp_path / "out.npz",
+        "--keep",
+        "0.05",
+        *FEW,
+    )
     ran = bsm(*arguments)
     assert ran.returncode == 11
     assert "force" in ran.stderr and "frame" not in ran.stderr
@@ -134,7 +162,9 @@ def test_every_option_reaches_the_library(noisy_file, tmp_path):
 
 
 def test_an_npz_sequence_is_denoised_frame_by_frame(frames, tmp_path):
-    np.savez_compressed(tmp_path / "run.npz", positions=frames.astype(np.float32), faces=CLEAN.faces)
+    np.savez_compressed(
+        tmp_path / "run.npz", positions=frames.astype(np.float32), faces=CLEAN.faces
+    )
     ran = bsm("denoise", tmp_path / "run.npz", "-o", tmp_path / "out.npz", "--json", *FEW)
     assert ran.returncode == 0, ran.stderr
     assert json.loads(ran.stdout)["frames"] == len(frames)
@@ -143,7 +173,10 @@ def test_an_npz_sequence_is_denoised_frame_by_frame(frames, tmp_path):
         assert (out["faces"] == CLEAN.faces).all()
         two = frames[[-1, 0]].astype(np.float32)
         np.savez_compressed(tmp_path / "two.npz", positions=two, faces=CLEAN.faces)
-        assert bsm("denoise", tmp_path / "two.npz", "-o", tmp_path / "two_out.npz", *FEW).returncode == 0
+        assert (
+            bsm("denoise", tmp_path / "two.npz", "-o", tmp_path / "two_out.npz", *FEW).returncode
+            == 0
+        )
         with np.load(tmp_path / "two_out.npz") as others:
             assert np.abs(out["positions"][[-1, 0]] - others["positions"]).max() < 1e-10
 
@@ -163,9 +196,25 @@ def test_frames_come_and_go_through_pipes(frames, tmp_path):
         for frame in frames[:3]:
             np.save(file, frame)
     with open(tmp_path / "in.npy", "rb") as source, open(tmp_path / "out.npy", "wb") as sink:
-        command = [sys.executable, "-m", "bsm", "denoise", "-", "-o", "-", "--format", "npy", "-q", *FEW]
-        subprocess.run(command, stdin=source, stdout=sink, timeout=120, cwd=program.ROOT, check=True)
-    expected = library.FrameDenoiser(frames[0], CLEAN.faces, DenoiseOptions(iterations=2, block_size=200))(frames[:3])
+        command = [
+            sys.executable,
+            "-m",
+            "bsm",
+            "denoise",
+            "-",
+            "-o",
+            "-",
+            "--format",
+            "npy",
+            "-q",
+            *FEW,
+        ]
+        subprocess.run(
+            command, stdin=source, stdout=sink, timeout=120, cwd=program.ROOT, check=True
+        )
+    expected = library.FrameDenoiser(
+        frames[0], CLEAN.faces, DenoiseOptions(iterations=2, block_size=200)
+    )(frames[:3])
     with open(tmp_path / "out.npy", "rb") as file:
         assert (np.load(file) == CLEAN.faces).all()
         for frame in expected:
@@ -188,7 +237,9 @@ def test_frames_that_are_none_are_refused(frames, options):
 
 def test_the_command_knows_all_choices_of_the_library():
     choices = {flag.field: set(flag.value.split("|")) for flag in FLAGS["denoise method"]}
-    assert choices["fine"] == set(surface.FINE_STEPS) and choices["hand_over"] == set(filters.HAND_OVERS)
+    assert choices["fine"] == set(surface.FINE_STEPS) and choices["hand_over"] == set(
+        filters.HAND_OVERS
+    )
     assert set(GOALS) <= set(rehearsal.GOALS)
 
 
@@ -253,4 +304,6 @@ def test_streams_are_written_as_well(noisy_file, tmp_path):
     streamed, written = api.load(tmp_path / "a.bsm"), read_mesh(tmp_path / "a.ply").mesh
     diagonal = np.linalg.norm(np.ptp(written.positions, axis=0))
     assert len(streamed.positions) == len(written.positions)
-    assert np.ptp(streamed.positions, axis=0) == pytest.approx(np.ptp(written.positions, axis=0), abs=2e-3 * diagonal)
+    assert np.ptp(streamed.positions, axis=0) == pytest.approx(
+        np.ptp(written.positions, axis=0), abs=2e-3 * diagonal
+    )

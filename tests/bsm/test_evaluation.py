@@ -39,7 +39,9 @@ from tools.laplacians import dense_laplacian
 from tools.replicate.paper.compression import EXACT
 from tools.vectors.meshes import shuffled
 
-GEOMETRY_KEYS = "bpv_geometry bpv_paper nmsve_db nmsve_paper_db theta_deg rms_relative max_error_relative"
+GEOMETRY_KEYS = (
+    "bpv_geometry bpv_paper nmsve_db nmsve_paper_db theta_deg rms_relative max_error_relative"
+)
 POINT_KEYS = {*f"settings bytes bpv_total {GEOMETRY_KEYS} encode_seconds decode_seconds".split()}
 
 
@@ -73,11 +75,16 @@ class TestRates:
 
     def test_theta_is_compared_on_a_logarithmic_scale(self):
         def result(name, rates, angles):
-            points = [{"bpv_total": r, "theta_deg": a, "nmsve_db": None} for r, a in zip(rates, angles, strict=True)]
+            points = [
+                {"bpv_total": r, "theta_deg": a, "nmsve_db": None}
+                for r, a in zip(rates, angles, strict=True)
+            ]
             return {"codec": name, "mesh": {"name": "m"}, "points": points}
 
         # Each halving of theta costs two bits per octave: at 7 degrees both are straight lines in log rate, log theta.
-        row = compare_curves(result("draco", [8, 4, 2], [3.5, 7, 14]), result("ours", [4, 2, 1], [3.5, 7, 14]))
+        row = compare_curves(
+            result("draco", [8, 4, 2], [3.5, 7, 14]), result("ours", [4, 2, 1], [3.5, 7, 14])
+        )
         assert row["bytes_at_theta"] == {"7": pytest.approx(0.5), "10": pytest.approx(0.5)}
         assert row["bd_rate_percent"] == {"theta_deg": pytest.approx(-50), "nmsve_db": None}
 
@@ -86,7 +93,9 @@ class TestCodecs:
     @pytest.mark.parametrize("keep_order", [False, True])
     def test_ours_comes_back_in_the_original_order(self, keep_order):
         mesh = shuffled(torus())
-        options = EncodeOptions(block_size=150, step=1e-4, keep=1.0, threads=1, keep_order=keep_order)
+        options = EncodeOptions(
+            block_size=150, step=1e-4, keep=1.0, threads=1, keep_order=keep_order
+        )
         point = measure(Spectral(options), mesh, Reference(mesh.positions, mesh.faces))
         assert point["max_error_relative"] < 0.01
 
@@ -117,7 +126,10 @@ class TestCodecs:
         flat = np.array([[0, len(copies) - 2, len(copies) - 1], [len(copies) - 1, 0, 1]])
         given = TriangleMesh(copies, np.concatenate([mesh.faces, flat]).astype(np.int32))
         result = run_curve(Curve("draco", "Draco", (Draco(11),)), given, "a")
-        assert result["mesh"]["faces"] == len(mesh.faces) and result["points"][0]["max_error_relative"] < 1e-3
+        assert (
+            result["mesh"]["faces"] == len(mesh.faces)
+            and result["points"][0]["max_error_relative"] < 1e-3
+        )
 
 
 class TestResults:
@@ -147,7 +159,13 @@ class TestPictures:
         """Two lines on each of two meshes."""
 
         def point(bpv, db, theta, settings):
-            numbers = {"bpv_total": bpv, "bpv_paper": bpv, "nmsve_db": db, "nmsve_paper_db": db, "theta_deg": theta}
+            numbers = {
+                "bpv_total": bpv,
+                "bpv_paper": bpv,
+                "nmsve_db": db,
+                "nmsve_paper_db": db,
+                "theta_deg": theta,
+            }
             return {"settings": settings, **numbers, "encode_seconds": bpv, "decode_seconds": bpv}
 
         asked = [{"target": {"kind": "theta_deg", "value": value}} for value in (9, 1)]
@@ -157,7 +175,12 @@ class TestPictures:
             "svd": [point(4, -50, 9, {"bits": 12})],
         }
         return [
-            {"codec": name, "label": name, "mesh": {"name": mesh, "vertices": 3, "faces": 1}, "points": points}
+            {
+                "codec": name,
+                "label": name,
+                "mesh": {"name": mesh, "vertices": 3, "faces": 1},
+                "points": points,
+            }
             for mesh in "mn"
             for name, points in lines.items()
         ]
@@ -168,10 +191,19 @@ class TestPictures:
             for path in picture.save(tmp_path, ("png", "svg", "pdf")):
                 start = {".png": b"\x89PNG", ".svg": b"<?xml", ".pdf": b"%PDF"}[path.suffix]
                 assert path.read_bytes().startswith(start)
-        names = {f"{stem}.{suffix}" for stem in ("m.paper", "m.nmsve", "m.theta") for suffix in ("png", "svg", "pdf")}
+        names = {
+            f"{stem}.{suffix}"
+            for stem in ("m.paper", "m.nmsve", "m.theta")
+            for suffix in ("png", "svg", "pdf")
+        }
         assert {path.name for path in tmp_path.iterdir()} == names
         exact = [
-            {**found, "points": [{**p, "nmsve_db": None, "nmsve_paper_db": None} for p in found["points"]]}
+            {
+                **found,
+                "points": [
+                    {**p, "nmsve_db": None, "nmsve_paper_db": None} for p in found["points"]
+                ],
+            }
             for found in results[:3]
         ]
         assert [picture.name for picture in draw_all(exact)] == ["m.theta"]
@@ -187,14 +219,24 @@ class TestPictures:
     def test_points_that_another_one_beats_are_counted(self, results):
         (point,) = results[2]["points"]
         worse = {**point, "bpv_total": 5, "nmsve_db": -49}
-        assert compare_curves(results[0], {**results[2], "points": [point, worse]})["beaten"]["nmsve_db"] == 1
+        assert (
+            compare_curves(results[0], {**results[2], "points": [point, worse]})["beaten"][
+                "nmsve_db"
+            ]
+            == 1
+        )
 
     def test_lines_that_lie_on_each_other_are_drawn_once(self):
         points = [(1.0, -40.0), (2.0, -45.0)]
         moved = [(rate, error + 0.001) for rate, error in points]
-        lines = {"oi-r1": Line("R", [(1.0, -39.0), (2.0, -44.0)]), "oi-r1-t2": Line("R twice", points)}
+        lines = {
+            "oi-r1": Line("R", [(1.0, -39.0), (2.0, -44.0)]),
+            "oi-r1-t2": Line("R twice", points),
+        }
         kept = distinct({**lines, "oi-r2": Line("R²", moved), "svd": Line("SVD", points[:1])})
-        assert list(kept) == ["oi-r1", "oi-r1-t2", "svd"] and kept["oi-r1-t2"] == Line("R twice = R²", points)
+        assert list(kept) == ["oi-r1", "oi-r1-t2", "svd"] and kept["oi-r1-t2"] == Line(
+            "R twice = R²", points
+        )
 
     def test_the_exact_line_is_last(self):
         assert [curve.name for curve in paper_curves(150)][-2:] == ["doi-r1", "svd"]
@@ -204,17 +246,23 @@ class TestPictures:
         seen = {}
         for picture in draw_all(results):
             picture.draw(drawn := figure.Figure())
-            assert all((axes.get_xscale() == "log") != ("paper" in picture.name) for axes in drawn.axes)
+            assert all(
+                (axes.get_xscale() == "log") != ("paper" in picture.name) for axes in drawn.axes
+            )
             seen[picture.name] = [{line.get_color() for line in axes.lines} for axes in drawn.axes]
             for legend in drawn.legends:
                 labels = [text.get_text() for text in legend.get_texts()]
                 asked = ["ours, asked for 9 to 1°"] if "theta" in picture.name else []
-                assert labels == (["svd (4 s)"] if "paper" in picture.name else [*asked, "draco", "svd"])
+                assert labels == (
+                    ["svd (4 s)"] if "paper" in picture.name else [*asked, "draco", "svd"]
+                )
         assert set(seen) == {"m.paper", "n.paper", "meshes.nmsve", "meshes.theta"}
         color = {name: STYLES[name][0] for name in ("ours", "draco", "svd")}
         assert seen["m.paper"] == seen["n.paper"] == [{color["svd"]}]
         assert seen["meshes.theta"] == [set(color.values())] * 2
-        assert seen["meshes.nmsve"] == [{color["draco"], color["svd"]}] * 2, "ours was asked for the other measure"
+        assert seen["meshes.nmsve"] == [{color["draco"], color["svd"]}] * 2, (
+            "ours was asked for the other measure"
+        )
 
 
 class TestCommands:
@@ -223,7 +271,9 @@ class TestCommands:
         curve = our_curve()
         kinds = {codec.options.target.kind: codec for codec in curve.codecs}
         found = {
-            kind: json.loads(json.dumps(measure(codec, mesh, Reference(mesh.positions, mesh.faces))))
+            kind: json.loads(
+                json.dumps(measure(codec, mesh, Reference(mesh.positions, mesh.faces)))
+            )
             for kind, codec in kinds.items()
         }
         assert found["theta_deg"]["theta_deg"] <= 0.2 and found["nmsve_db"]["nmsve_db"] <= -68.0
@@ -232,12 +282,30 @@ class TestCommands:
 
     def test_our_curve_is_asked_for_the_errors_of_rivals(self):
         errors = [-30.0, -30.1, -33.0, -47.0]
-        rival = {"points": [{"nmsve_db": level, "theta_deg": 10.0} for level in errors] + [{"nmsve_db": None}]}
+        rival = {
+            "points": [{"nmsve_db": level, "theta_deg": 10.0} for level in errors]
+            + [{"nmsve_db": None}]
+        }
         asked = {}
         for codec in our_curve([rival]).codecs:
             asked.setdefault(codec.options.target.kind, []).append(codec.options.target.value)
-        assert asked["nmsve_db"] == [-30.0, -33.0, -40.0, -44.0, -47.0, -52.0, -56.0, -60.0, -64.0, -68.0]
-        assert 10.0 in asked["theta_deg"] and 11.0 not in asked["theta_deg"] and 15.0 not in asked["theta_deg"]
+        assert asked["nmsve_db"] == [
+            -30.0,
+            -33.0,
+            -40.0,
+            -44.0,
+            -47.0,
+            -52.0,
+            -56.0,
+            -60.0,
+            -64.0,
+            -68.0,
+        ]
+        assert (
+            10.0 in asked["theta_deg"]
+            and 11.0 not in asked["theta_deg"]
+            and 15.0 not in asked["theta_deg"]
+        )
         assert asked["theta_deg"] == sorted(asked["theta_deg"], reverse=True)
 
     def test_each_point_of_a_rival_has_ours_beside_it(self, tmp_path, capsys):
@@ -246,12 +314,25 @@ class TestCommands:
         save(torus(20, 20, bumps=0.02), mesh)
         (tmp_path / "mine.csv").write_text("label,bpv,nmsve_db\nmine,9,-41.3\nmine,12,-49.9\n")
         assert (
-            main(["curve", str(mesh), "-o", str(folder), "--codecs", "ours", "-q", "--points", f"{tmp_path}/mine.csv"])
+            main(
+                [
+                    "curve",
+                    str(mesh),
+                    "-o",
+                    str(folder),
+                    "--codecs",
+                    "ours",
+                    "-q",
+                    "--points",
+                    f"{tmp_path}/mine.csv",
+                ]
+            )
             == 0
         )
         found = {result["codec"]: result["points"] for result in read_results(folder)}
         reached = {
-            point["settings"]["target"]["value"]: point["nmsve_db"] for point in points_of(found["ours"], "nmsve_db")
+            point["settings"]["target"]["value"]: point["nmsve_db"]
+            for point in points_of(found["ours"], "nmsve_db")
         }
         assert {-41.3, -49.9} <= reached.keys()
         assert all(level <= asked for asked, level in reached.items())
@@ -262,19 +343,35 @@ class TestCommands:
             pytest.importorskip(name, reason=f"needs {name} (extra eval)")
         save(torus(20, 20), tmp_path / "torus.npz")
         folder = tmp_path / "out"
-        words = ["curve", str(tmp_path / "torus.npz"), "-o", str(folder), "--codecs", "oi-r2,svd", "--blocks", "3"]
+        words = [
+            "curve",
+            str(tmp_path / "torus.npz"),
+            "-o",
+            str(folder),
+            "--codecs",
+            "oi-r2,svd",
+            "--blocks",
+            "3",
+        ]
         assert main([*words, "-q", "--csv", "--latex", "--pdf"]) == 0
-        made = {f"torus.{end}" for end in ("oi-r2.json", "svd.json", "paper.png", "paper.svg", "paper.pdf")}
+        made = {
+            f"torus.{end}"
+            for end in ("oi-r2.json", "svd.json", "paper.png", "paper.svg", "paper.pdf")
+        }
         assert {path.name for path in folder.iterdir()} == made | {"points.csv", "points.tex"}
         points = sum(len(result["points"]) for result in read_results(folder))
         assert len(capsys.readouterr().out.splitlines()) == 2 + points
         assert len((folder / "points.csv").read_text().splitlines()) == 1 + points
 
-    def test_everything_that_is_missing_is_named_before_anything_is_measured(self, tmp_path, capsys, monkeypatch):
+    def test_everything_that_is_missing_is_named_before_anything_is_measured(
+        self, tmp_path, capsys, monkeypatch
+    ):
         save(torus(20, 20), tmp_path / "torus.npz")
         find = importlib.util.find_spec
         gone = ("pymetis", "zstandard", "DracoPy")
-        monkeypatch.setattr(importlib.util, "find_spec", lambda name: None if name in gone else find(name))
+        monkeypatch.setattr(
+            importlib.util, "find_spec", lambda name: None if name in gone else find(name)
+        )
         words = ["curve", str(tmp_path / "torus.npz"), "-o", str(tmp_path / "out")]
         assert main(words) != 0
         errors = capsys.readouterr().err
@@ -288,9 +385,15 @@ class TestCommands:
         save(torus(20, 20), mesh)
         words = ["curve", str(mesh), "-o", str(picture), "--codecs", "draco"]
         assert main(words) == 0
-        assert picture.read_bytes().startswith(b"\x89PNG") and set(tmp_path.iterdir()) == {mesh, picture}
+        assert picture.read_bytes().startswith(b"\x89PNG") and set(tmp_path.iterdir()) == {
+            mesh,
+            picture,
+        }
         shown = capsys.readouterr()
-        assert re.search(r"^torus, Draco: about [0-9.]+ s$", shown.err, re.MULTILINE) and "|   draco" in shown.out
+        assert (
+            re.search(r"^torus, Draco: about [0-9.]+ s$", shown.err, re.MULTILINE)
+            and "|   draco" in shown.out
+        )
         assert main(words) == 9 and "-f overwrites it" in capsys.readouterr().err
         assert main([*words, "-f", "-q"]) == 0 and not capsys.readouterr().err
         for wrong in (["-o", "a.json"], ["-o", "a.svg", "--csv"]):
@@ -317,7 +420,9 @@ def test_the_sample_is_a_closed_oriented_torus():
 
 def test_the_nearest_face_is_drawn():
     far, near = [0, 0, 0], [0, 0, 1]
-    positions = np.array([[-1, -1, 0], [1, -1, 0], [0, 1, 0]] * 2) + np.repeat([far, near], 3, axis=0)
+    positions = np.array([[-1, -1, 0], [1, -1, 0], [0, 1, 0]] * 2) + np.repeat(
+        [far, near], 3, axis=0
+    )
     faces = np.array([[0, 1, 2], [3, 4, 5]], np.int32)
     colors = np.array([[1.0, 0, 0], [0, 0, 1.0]])
     view = view_matrix(-90, 90)

@@ -39,7 +39,10 @@ def sources(tmp_path_factory):
 
 def started(*words):
     return subprocess.Popen(
-        [sys.executable, "-m", "bsm", *map(str, words)], cwd=ROOT, stderr=subprocess.PIPE, stdout=subprocess.PIPE
+        [sys.executable, "-m", "bsm", *map(str, words)],
+        cwd=ROOT,
+        stderr=subprocess.PIPE,
+        stdout=subprocess.PIPE,
     )
 
 
@@ -103,7 +106,10 @@ def test_a_worker_that_is_killed_loses_nothing_and_repeats_nothing(cluster, larg
         "--set",
         "step=0.001",
     )
-    with distributed.Client(cluster.scheduler_address, set_as_default=False) as client, started(*command) as process:
+    with (
+        distributed.Client(cluster.scheduler_address, set_as_default=False) as client,
+        started(*command) as process,
+    ):
         until(lambda: output.exists() and len(list(output.glob("*.bsm"))) >= 2, process)
         before = client.run(os.getpid)
         busy = {worker: tasks for worker, tasks in client.processing().items() if tasks}
@@ -113,7 +119,9 @@ def test_a_worker_that_is_killed_loses_nothing_and_repeats_nothing(cluster, larg
         assert process.returncode == 0, errors.decode()
         assert victim not in client.run(os.getpid).values()
     content = json.loads(report.read_text())
-    assert content["complete"] and content["totals"]["done"] == 10 and content["totals"]["failed"] == 0
+    assert (
+        content["complete"] and content["totals"]["done"] == 10 and content["totals"]["failed"] == 0
+    )
     assert [file["input"] for file in content["files"]] == larger
     assert json.loads(printed) == {"files": content["files"]}
     assert sorted(contents(output)) == [Path(file["output"]).name for file in content["files"]]
@@ -132,15 +140,32 @@ def test_a_cluster_goes_on_behind_failures_and_back(cluster, sources, tmp_path):
     assert [facts.get("exit") for facts in done] == [None, None, 3, 9]
     assert sorted(contents(tmp_path / "new")) == ["00.bsm", "01.bsm"]
     streams = [facts["output"] for facts in done[:2]]
-    assert main(["decode", "-q", *streams, "-o", f"{tmp_path}/back/", "--dask", cluster.scheduler_address]) == 0
+    assert (
+        main(
+            [
+                "decode",
+                "-q",
+                *streams,
+                "-o",
+                f"{tmp_path}/back/",
+                "--dask",
+                cluster.scheduler_address,
+            ]
+        )
+        == 0
+    )
     for name, source in zip(("00.ply", "01.ply"), sources):
-        assert len(read_mesh(tmp_path / "back" / name).mesh.faces) == len(read_mesh(source).mesh.faces)
+        assert len(read_mesh(tmp_path / "back" / name).mesh.faces) == len(
+            read_mesh(source).mesh.faces
+        )
 
 
 def test_a_job_that_kills_every_worker_has_failed_alone(cluster, tmp_path):
     jobs = [Job(f"/{name}", str(tmp_path / name)) for name in ("a", "always", "b", "c")]
     cluster.scheduler.allowed_failures = 0
-    done = run_many(Batch(dask=cluster.scheduler_address), Task(quiet=True), Console(quiet=True), deadly, jobs)
+    done = run_many(
+        Batch(dask=cluster.scheduler_address), Task(quiet=True), Console(quiet=True), deadly, jobs
+    )
     cluster.scheduler.allowed_failures = 3
     assert [facts.get("exit") for facts in done] == [None, 6, None, None]
     assert {"a", "b", "c"} == {name for name in contents(tmp_path) if "always" not in name}
@@ -152,7 +177,9 @@ def test_no_scheduler(sources, tmp_path, capsys):
         import dask
 
         patch.setitem(dask.config.config["distributed"]["comm"]["timeouts"], "connect", "1s")
-        assert main(["encode", sources[0], "-o", f"{tmp_path}/", "--dask", "tcp://127.0.0.1:1"]) == 9
+        assert (
+            main(["encode", sources[0], "-o", f"{tmp_path}/", "--dask", "tcp://127.0.0.1:1"]) == 9
+        )
     assert "no Dask scheduler answers here" in capsys.readouterr().err
     assert main(["encode", "-", "-o", "-", "--dask", "tcp://127.0.0.1:1"]) == 2
 
@@ -181,17 +208,24 @@ print(json.dumps({"heard": heard, "done": done}))
 def test_a_process_that_dies_takes_only_its_own_job_along(tmp_path):
     names = ["a", "b", "once", "c", "fault", "always", "d", "e"]
     command = [sys.executable, "-c", DEADLY_BATCH, str(tmp_path), *names]
-    process = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, timeout=120, check=False)
+    process = subprocess.run(
+        command, cwd=ROOT, capture_output=True, text=True, timeout=120, check=False
+    )
     assert process.returncode == 0, process.stderr
     result = json.loads(process.stdout)
     done = result["done"]
     assert result["heard"] == names == [facts["input"] for facts in done]
-    assert {facts["input"]: facts["exit"] for facts in done if "error" in facts} == {"fault": 1, "always": 6}
+    assert {facts["input"]: facts["exit"] for facts in done if "error" in facts} == {
+        "fault": 1,
+        "always": 6,
+    }
     assert "KeyError" in done[4]["error"] and "please report" in done[4]["error"]
     left = {name for name in contents(tmp_path) if not name.endswith(".part")}
     assert left == {*names, "once.mark", "always.mark"} - {"always"}
     pytest.importorskip("fcntl", reason="without locks the files of writers that died stay")
-    assert all(".always." in name for name in set(contents(tmp_path)) - left), "only what has no other attempt"
+    assert all(".always." in name for name in set(contents(tmp_path)) - left), (
+        "only what has no other attempt"
+    )
 
 
 @pytest.mark.parametrize("run", [Batch(), Batch(jobs=2)])
@@ -199,7 +233,14 @@ def test_jobs_wait_for_what_they_need_and_are_left_out_where_it_failed(tmp_path,
     needs = {"fault": (), "a": (), "b": (1,), "c": (0, 1), "d": (3,), "e": (2,), "f": ()}
     jobs = [Job(name, str(tmp_path / name), after) for name, after in needs.items()]
     heard = []
-    done = run_many(run, Task(quiet=True), Console(quiet=True), deadly, jobs, lambda job, _: heard.append(job.input))
+    done = run_many(
+        run,
+        Task(quiet=True),
+        Console(quiet=True),
+        deadly,
+        jobs,
+        lambda job, _: heard.append(job.input),
+    )
     assert heard == [facts["input"] for facts in done if facts] == ["fault", *"abef"]
     assert set(contents(tmp_path)) == {*heard}
     written = [(tmp_path / name).stat().st_mtime_ns for name in "abe"]
@@ -229,7 +270,9 @@ def web(sources):
 def test_inputs_from_the_web(web, sources, tmp_path):
     pytest.importorskip("aiohttp")
     names = [f"{web}/00.ply", f"{web}/01.ply?version=2", f"{web}/none.ply"]
-    done = program("encode", *names, "-o", f"{tmp_path}/", "-j", 2, "--json", "--grid", 8, text=True)
+    done = program(
+        "encode", *names, "-o", f"{tmp_path}/", "-j", 2, "--json", "--grid", 8, text=True
+    )
     files = json.loads(done.stdout)["files"]
     assert done.returncode == 9 and f"{web}/none.ply: No such file" in done.stderr
     assert [file.get("input_bytes") for file in files] == [*map(os.path.getsize, sources[:2]), None]
@@ -247,11 +290,28 @@ def test_there_and_back_in_memory(sources, capsys):
     assert main(["encode", "-q", *sources[:3], "-o", "memory://farm/new/"]) == 0
     assert main(["encode", "-q", sources[0], "-o", "memory://farm/new/00.bsm"]) == 9
     assert "exists already" in capsys.readouterr().err
-    assert main(["decode", "-q", "memory://farm/new/*.bsm", "-o", "memory://farm/back/", "--format", "obj"]) == 0
+    assert (
+        main(
+            [
+                "decode",
+                "-q",
+                "memory://farm/new/*.bsm",
+                "-o",
+                "memory://farm/back/",
+                "--format",
+                "obj",
+            ]
+        )
+        == 0
+    )
     assert main(["verify", "-q", "memory://farm/new/*.bsm"]) == 0
-    assert main(["encode", "memory://farm/back/00.obj", "-o", "memory://farm/back/00.obj", "-f"]) == 2
+    assert (
+        main(["encode", "memory://farm/back/00.obj", "-o", "memory://farm/back/00.obj", "-f"]) == 2
+    )
     mesh = bsm.load("memory://farm/back/00.obj")
-    assert (mesh.positions == pytest.approx(bsm.decode("memory://farm/new/00.bsm").positions)) or len(mesh.faces)
+    assert (
+        mesh.positions == pytest.approx(bsm.decode("memory://farm/new/00.bsm").positions)
+    ) or len(mesh.faces)
     with pytest.raises(FileNotFoundError):
         bsm.load("memory://farm/back/none.obj")
     assert main(["decode", "memory://farm/none/*.bsm", "-o", "memory://farm/back/"]) == 9
@@ -266,7 +326,10 @@ def test_what_fails_leaves_nothing_behind_a_url():
 
 
 def test_files_by_url(sources, tmp_path):
-    assert main(["encode", "-q", Path(sources[0]).as_uri(), "-o", f"{tmp_path.as_uri()}/a%20b.bsm"]) == 0
+    assert (
+        main(["encode", "-q", Path(sources[0]).as_uri(), "-o", f"{tmp_path.as_uri()}/a%20b.bsm"])
+        == 0
+    )
     assert list(contents(tmp_path)) == ["a b.bsm"]
 
 
@@ -274,7 +337,9 @@ def test_packages_that_are_missing(monkeypatch):
     with pytest.raises(OptionError, match="nowhere"):
         bsm.load("nowhere://a/b.ply")
     monkeypatch.setitem(sys.modules, "s3fs", None)
-    with pytest.raises(DependencyError, match=r"s3:// needs a package that is missing: pip install 's3fs'"):
+    with pytest.raises(
+        DependencyError, match=r"s3:// needs a package that is missing: pip install 's3fs'"
+    ):
         bsm.load("s3://bucket/a.ply")
     monkeypatch.setitem(sys.modules, "fsspec", None)
     with pytest.raises(DependencyError, match=r"pip install .*\[remote\]'"):
@@ -317,9 +382,22 @@ def test_only_what_is_not_as_it_was_is_done_again(sources, tmp_path):
 
 def test_a_run_that_was_killed_goes_on(larger, tmp_path):
     output, report = tmp_path / "out", tmp_path / "report.json"
-    command = ("encode", *larger, "-o", f"{output}/", "--report", report, "--resume", "--set", "step=0.001")
+    command = (
+        "encode",
+        *larger,
+        "-o",
+        f"{output}/",
+        "--report",
+        report,
+        "--resume",
+        "--set",
+        "step=0.001",
+    )
     with started(*command) as process:
-        until(lambda: report.exists() and json.loads(report.read_text())["totals"]["done"] >= 2, process)
+        until(
+            lambda: report.exists() and json.loads(report.read_text())["totals"]["done"] >= 2,
+            process,
+        )
         process.kill()
     content = json.loads(report.read_text())
     assert not content["complete"] and len(content["files"]) == 10
@@ -351,7 +429,12 @@ def test_a_forged_report_lets_nothing_be_replaced(sources, tmp_path):
         assert contents(output) == {"00.bsm": b"precious", "01.bsm": whole["01.bsm"]}
     elsewhere = tmp_path / "elsewhere.txt"
     elsewhere.write_bytes(b"precious")
-    forged(report, content["command"], content["options"], {"input": sources[0], "output": str(elsewhere)})
+    forged(
+        report,
+        content["command"],
+        content["options"],
+        {"input": sources[0], "output": str(elsewhere)},
+    )
     bsm.encode_many(sources[1:2], output, report=report, resume=True, grid=8)
     assert elsewhere.read_bytes() == b"precious"
 
@@ -399,7 +482,11 @@ def test_a_cluster_that_may_not_write_says_where(cluster, sources, tmp_path, cap
     assert [facts.get("exit") for facts in done] == [None, 9, None]
     assert done[1]["error"] == f"{tmp_path}/out/01.bsm: the output is a folder"
     streams = [tmp_path / "out" / f"{name}.bsm" for name in ("00", "02")]
-    assert sorted(path.name for path in (tmp_path / "out").iterdir()) == ["00.bsm", "01.bsm", "02.bsm"]
+    assert sorted(path.name for path in (tmp_path / "out").iterdir()) == [
+        "00.bsm",
+        "01.bsm",
+        "02.bsm",
+    ]
     if not NOBODYS.is_dir():
         pytest.skip("there is no folder that takes no files")
     before = sorted(NOBODYS.iterdir())
@@ -411,7 +498,9 @@ def test_a_cluster_that_may_not_write_says_where(cluster, sources, tmp_path, cap
     report = NOBODYS / "report.json"
     with pytest.raises(OSError, match=r"report\.json"):
         bsm.encode_many(sources[:2], tmp_path / "late", dask=where, grid=8, report=report)
-    assert not list((tmp_path / "late").iterdir()), "work was done for a report that cannot be written"
+    assert not list((tmp_path / "late").iterdir()), (
+        "work was done for a report that cannot be written"
+    )
     assert sorted(NOBODYS.iterdir()) == before
 
 

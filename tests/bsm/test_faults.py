@@ -27,7 +27,10 @@ def folder(tmp_path_factory):
     folder = tmp_path_factory.mktemp("faults")
     save(knot(900), folder / "sample.ply")
     save(knot(30_000), folder / "large.ply")
-    assert main(["encode", str(folder / "sample.ply"), "-q", "--threads", "1", *OPTIONS["encode"]]) == 0
+    assert (
+        main(["encode", str(folder / "sample.ply"), "-q", "--threads", "1", *OPTIONS["encode"]])
+        == 0
+    )
     return folder
 
 
@@ -41,14 +44,26 @@ def printed(done):
 @pytest.mark.parametrize("name", ["SIGTERM", "SIGHUP", "SIGINT", "SIGKILL"])
 def test_killed_in_mid_encode(name, folder, tmp_path):
     output, number = tmp_path / "a.bsm", getattr(signal, name)
-    command = [*BSM, "encode", folder / "large.ply", "-o", output, "--set", "block-size=300", "--set", "keep=1"]
+    command = [
+        *BSM,
+        "encode",
+        folder / "large.ply",
+        "-o",
+        output,
+        "--set",
+        "block-size=300",
+        "--set",
+        "keep=1",
+    ]
     with subprocess.Popen(command, cwd=ROOT, stderr=subprocess.PIPE) as process:
         while not list(tmp_path.iterdir()):  # the temporary file is there from the first block on
             assert process.poll() is None
             time.sleep(0.05)
         process.send_signal(number)
         errors = process.communicate(timeout=120)[1].decode()
-    assert process.returncode == {"SIGTERM": 143, "SIGHUP": 143, "SIGINT": 130, "SIGKILL": -9}[name], errors
+    assert (
+        process.returncode == {"SIGTERM": 143, "SIGHUP": 143, "SIGINT": 130, "SIGKILL": -9}[name]
+    ), errors
     assert not output.exists()
     if name != "SIGKILL":
         assert list(tmp_path.iterdir()) == []
@@ -85,7 +100,9 @@ def test_the_reader_of_a_pipe_goes_away(command, folder):
 def test_a_file_that_is_replaced_is_whole_or_the_old_one(folder, tmp_path):
     output = tmp_path / "a.ply"
     output.write_bytes(b"old")
-    done = run("decode", folder / "sample.bsm", "-f", "-o", output, preexec_fn=bound("RLIMIT_FSIZE", 512))
+    done = run(
+        "decode", folder / "sample.bsm", "-f", "-o", output, preexec_fn=bound("RLIMIT_FSIZE", 512)
+    )
     assert done.returncode == 9 and output.read_bytes() == b"old"
     assert run("decode", folder / "sample.bsm", "-f", "-q", "-o", output).returncode == 0
     assert len(read_mesh(output).mesh.faces) == len(read_mesh(folder / "sample.ply").mesh.faces)

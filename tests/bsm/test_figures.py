@@ -25,25 +25,41 @@ def of_odd_mesh(seed, changes, words, folder, suffix):
 
 
 @settings(max_examples=20, derandomize=True)
-@given(SEEDS, st.sets(st.sampled_from(CHANGES), max_size=4), st.sampled_from(QUICK), st.sampled_from(["npz", "ply"]))
+@given(
+    SEEDS,
+    st.sets(st.sampled_from(CHANGES), max_size=4),
+    st.sampled_from(QUICK),
+    st.sampled_from(["npz", "ply"]),
+)
 def test_of_odd_meshes(tmp_path_factory, seed, changes, words, suffix):
     folder = tmp_path_factory.mktemp("odd")
     assert not of_odd_mesh(seed, changes, words, folder, suffix)
 
 
 @settings(max_examples=6, derandomize=True)
-@given(SEEDS, st.sets(st.sampled_from(CHANGES[:5]), max_size=2), st.sampled_from(MOVING), st.integers(3, 8))
+@given(
+    SEEDS,
+    st.sets(st.sampled_from(CHANGES[:5]), max_size=2),
+    st.sampled_from(MOVING),
+    st.integers(3, 8),
+)
 def test_of_odd_sequences(tmp_path_factory, seed, changes, words, frames):
     random = np.random.default_rng(seed)
     mesh = odd(random, sorted(changes))
-    assert not of_frames(moving(random, mesh, frames), mesh.faces, words, tmp_path_factory.mktemp("odd"))
+    assert not of_frames(
+        moving(random, mesh, frames), mesh.faces, words, tmp_path_factory.mktemp("odd")
+    )
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("first", range(0, 60, 20))
 def test_of_more(tmp_path, first):
     found = [problem for seed in range(first, first + 20) for problem in cases(seed, tmp_path)]
-    assert not found + [problem for seed in range(first, first + 6) for problem in cases(seed, tmp_path, frames=True)]
+    assert not found + [
+        problem
+        for seed in range(first, first + 6)
+        for problem in cases(seed, tmp_path, frames=True)
+    ]
 
 
 @pytest.mark.real
@@ -60,7 +76,10 @@ def test_vertices_at_one_place_are_measured_once_whatever_is_kept(tmp_path):
     for words in (("--keep-order",), ()):
         assert of_mesh(pieces, words, tmp_path) == []
     frames = np.array(
-        [pieces.positions * (1.0 + 0.1 * t) + 0.05 * np.sin(9.0 * pieces.positions + t) for t in range(4)]
+        [
+            pieces.positions * (1.0 + 0.1 * t) + 0.05 * np.sin(9.0 * pieces.positions + t)
+            for t in range(4)
+        ]
     )
     assert of_frames(frames, pieces.faces, ("--keep-order", "--kg", "0.2"), tmp_path) == []
 
@@ -82,7 +101,9 @@ def test_lengths_do_not_count_vertices_in_no_face(tmp_path):
     for words in (("--meta", "unit=mm"), ("--meta", "unit=mm", "--simplify", "--preset", "small")):
         assert of_mesh(far, words, tmp_path) == []
     bsm.save(far, tmp_path / "far.npz")
-    done = program("encode", tmp_path / "far.npz", "--meta", "unit=mm", "--max-error", "2mm", text=True)
+    done = program(
+        "encode", tmp_path / "far.npz", "--meta", "unit=mm", "--max-error", "2mm", text=True
+    )
     assert "of this mesh's size" in done.stderr
 
 
@@ -92,16 +113,26 @@ def test_batches_tell_vertices_from_surfaces():
         {"input": "a", "max_error_relative": 0.002, "error_of": "vertices"},
         {"input": "b", "max_error_relative": 0.004, "error_of": "surfaces"},
         {"input": "c", "max_error_relative": 0.001, "error_of": "vertices"},
-        {"input": "d", "max_error_relative": 0.003, "error_of": "vertices", "max_error": 0.5, "unit": "mm"},
+        {
+            "input": "d",
+            "max_error_relative": 0.003,
+            "error_of": "vertices",
+            "max_error": 0.5,
+            "unit": "mm",
+        },
     ]
-    assert largest_error(found) == ("0.3 % of the diagonal (d) and 0.4 % of the diagonal (b, surfaces apart)")
+    assert largest_error(found) == (
+        "0.3 % of the diagonal (d) and 0.4 % of the diagonal (b, surfaces apart)"
+    )
 
 
 def test_of_batches(tmp_path):
     names = [tmp_path / name for name in ("a.ply", "b.npz", "c.npz")]
     for name, mesh in zip(names, (torus(12, 8), soup(patch(6, 6)), patch(9, 5)), strict=True):
         bsm.save(mesh, name)
-    found = run_json("encode", *names, "-o", f"{tmp_path}/out/", "--report", tmp_path / "r.json")["files"]
+    found = run_json("encode", *names, "-o", f"{tmp_path}/out/", "--report", tmp_path / "r.json")[
+        "files"
+    ]
     report = json.loads((tmp_path / "r.json").read_text())
     assert report["files"] == found
     errors = {}
@@ -111,7 +142,13 @@ def test_of_batches(tmp_path):
         assert facts["look"] == pytest.approx(seen["look"]["distance"], rel=1e-3)
         assert facts["angle_deg"] == pytest.approx(seen["angle_deg"], rel=1e-4)
         assert facts["max_error_relative"] == pytest.approx(seen["max_error_relative"], rel=1e-4)
-    totals, sizes = report["totals"], [(tmp_path / "out" / f"{name.stem}.bsm").stat().st_size for name in names]
+    totals, sizes = (
+        report["totals"],
+        [(tmp_path / "out" / f"{name.stem}.bsm").stat().st_size for name in names],
+    )
     assert totals["output_bytes"] == sum(sizes)
     assert totals["ratio"] == pytest.approx(sum(name.stat().st_size for name in names) / sum(sizes))
-    assert totals["largest_error"] == f"{100 * max(errors):.3g} % of the diagonal ({errors[max(errors)]})"
+    assert (
+        totals["largest_error"]
+        == f"{100 * max(errors):.3g} % of the diagonal ({errors[max(errors)]})"
+    )

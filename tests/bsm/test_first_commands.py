@@ -25,7 +25,12 @@ def folder(tmp_path, monkeypatch):
 def test_a_stream_may_have_any_name(folder, capsys):
     for name in ("wrong.glb", "wrong.gltf", "wrong.ply"):
         (folder / "ring.bsm").rename(name)
-        for words in (["info"], ["verify"], ["decode", "-f", "-o", "back.ply"], ["compare", "ring.ply"]):
+        for words in (
+            ["info"],
+            ["verify"],
+            ["decode", "-f", "-o", "back.ply"],
+            ["compare", "ring.ply"],
+        ):
             assert run(*words, name) == 0, (words, name)
         (folder / name).rename("ring.bsm")
     assert run("encode", "ring.bsm", "-o", "x.bsm") == 3
@@ -34,15 +39,25 @@ def test_a_stream_may_have_any_name(folder, capsys):
 
 @pytest.mark.parametrize("away", [40.0, 3000.0, 2e6])
 def test_single_precision_goes_back_from_any_place(folder, away, capsys):
-    bsm.save(bsm.TriangleMesh((torus(16, 12).positions + away).astype(np.float32), torus(16, 12).faces), "far.stl")
+    bsm.save(
+        bsm.TriangleMesh((torus(16, 12).positions + away).astype(np.float32), torus(16, 12).faces),
+        "far.stl",
+    )
     assert run("encode", "far.stl", "-f") == 0
     for name in ("back.stl", "back.glb", "back.ply"):
         assert run("decode", "-f", "far.bsm", "-o", name) == 0
-        error = np.abs(bsm.load(name).positions.mean(axis=0) - bsm.load("far.stl").positions.mean(axis=0)).max()
+        error = np.abs(
+            bsm.load(name).positions.mean(axis=0) - bsm.load("far.stl").positions.mean(axis=0)
+        ).max()
         assert error < 0.02 + 1e-7 * away
-    bsm.save(bsm.TriangleMesh(torus(16, 12).positions / 3 + away, torus(16, 12).faces), "double.ply")
+    bsm.save(
+        bsm.TriangleMesh(torus(16, 12).positions / 3 + away, torus(16, 12).faces), "double.ply"
+    )
     assert run("encode", "double.ply", "-f") == 0
-    assert run("decode", "double.bsm", "-o", "double.stl") == 3 and "--float32" in capsys.readouterr().err
+    assert (
+        run("decode", "double.bsm", "-o", "double.stl") == 3
+        and "--float32" in capsys.readouterr().err
+    )
     assert run("decode", "double.bsm", "-o", "double.stl", "--float32") == 0
 
 
@@ -50,7 +65,12 @@ def test_a_bare_number_is_questioned(folder, capsys):
     diagonal = f"{0.05 * bsm.load('ring.ply').diagonal:.3g} mm here"
     assert run("encode", "ring.ply", "-f", "--max-error", "0.05", "--meta", "unit=mm") == 2
     said = capsys.readouterr().err
-    assert "0.05 is 5 % of the diagonal" in said and diagonal in said and "5%" in said and "0.05mm" in said
+    assert (
+        "0.05 is 5 % of the diagonal" in said
+        and diagonal in said
+        and "5%" in said
+        and "0.05mm" in said
+    )
     with pytest.raises(bsm.OptionError, match="for that write 5%"):
         bsm.encode("ring.ply", max_error=0.05)
     for bound in ("5%", "0.019", "0.05mm"):
@@ -63,7 +83,8 @@ def test_an_unknown_unit_is_asked_for_once(folder, capsys):
         bsm.save(torus(16, 12), f"parts/{number}.ply")
     assert run("encode", "-r", "parts", "--max-error", "0.1mm", "--report", "r.json") == 2
     said = capsys.readouterr().err
-    assert said.count("but the mesh has no unit") == 1 + 4 and "4 files in all have no unit" in said  # and in the table
+    # And in the table.
+    assert said.count("but the mesh has no unit") == 1 + 4 and "4 files in all have no unit" in said
     size = f"{np.ptp(bsm.load('ring.ply').positions, axis=0).max():.3g}"
     assert f"is it {size} m or {size} mm long?" in said and "--meta unit=m" in said
 
@@ -87,7 +108,10 @@ def test_errors_are_in_the_unit_that_was_asked_for(folder, capsys):
 def test_any_mesh_becomes_a_compressed_scene(folder, capsys):
     for name in ("ring.ply", "ring.bsm"):
         assert run("glb", name, "-o", "scene.glb", "-f") == 0
-        assert run("info", "scene.glb") == 0 and "scene of 1 primitive, 1 stream\n" in capsys.readouterr().out
+        assert (
+            run("info", "scene.glb") == 0
+            and "scene of 1 primitive, 1 stream\n" in capsys.readouterr().out
+        )
         assert run("decode", "scene.glb", "-o", "back.ply", "-f") == 0
         assert run("compare", "ring.ply", "back.ply") == 0
     (folder / "moving").mkdir()
@@ -140,7 +164,9 @@ def walk(folder):
     """A sequence of twelve frames, and the scene that `bsm glb` makes of it."""
     frames = np.array([torus(16, 12).positions + 0.1 * number for number in range(12)])
     np.savez("walk.npz", positions=frames, faces=torus(16, 12).faces)
-    assert run("encode", "walk.npz", "-q") == 0 and run("glb", "walk.bsm", "-o", "walk.glb", "-q") == 0
+    assert (
+        run("encode", "walk.npz", "-q") == 0 and run("glb", "walk.bsm", "-o", "walk.glb", "-q") == 0
+    )
     return frames
 
 
@@ -152,7 +178,10 @@ def test_one_frame_is_one_file(walk, capsys):
     assert run("decode", "walk.bsm", "-o", "all.obj") == 2
     said = capsys.readouterr().err
     assert "all-%04d.obj" in said and "--frames 0:1" in said
-    assert run("decode", "walk.bsm", "-o", "all-%04d.obj") == 0 and bsm.load("all-0011.obj") is not None
+    assert (
+        run("decode", "walk.bsm", "-o", "all-%04d.obj") == 0
+        and bsm.load("all-0011.obj") is not None
+    )
 
 
 def test_the_scene_of_a_sequence_is_read(walk, folder, capsys):
@@ -174,7 +203,9 @@ def test_folders_are_decoded_verified_and_compared(folder, capsys):
         (folder / name).parent.mkdir(exist_ok=True)
         bsm.save(torus(16, 12), name)
     assert run("encode", "-r", "scans", "-o", "small", "--meta", "unit=mm") == 0
-    assert "of 2 files" in (said := capsys.readouterr().err) and "mm (scans/" in said, "the largest error, in units"
+    assert "of 2 files" in (said := capsys.readouterr().err) and "mm (scans/" in said, (
+        "the largest error, in units"
+    )
     assert run("verify", "small") == 2 and "verify -r" in capsys.readouterr().err
     assert run("verify", "-r", "small") == 0 and "2 of 2 files" in capsys.readouterr().err
     assert run("decode", "-r", "small", "-o", "back") == 0
@@ -182,7 +213,9 @@ def test_folders_are_decoded_verified_and_compared(folder, capsys):
     assert run("compare", "-r", "scans", "back") == 0
     assert "2 of 2 files compared; largest vertex error" in capsys.readouterr().out
     assert run("compare", "-r", "scans", "small") == 0
-    assert capsys.readouterr().out.count(" mm") == 5, "the unit of the streams, with two errors each, and the largest"
+    assert capsys.readouterr().out.count(" mm") == 5, (
+        "the unit of the streams, with two errors each, and the largest"
+    )
     (folder / "back/a.ply").unlink()
     assert run("compare", "-r", "scans", "back", "--json") == 9
     files = json.loads(capsys.readouterr().out)["files"]
@@ -197,7 +230,9 @@ def test_a_command_that_is_named_can_be_pasted_whatever_the_file_is_called(folde
     assert "a; touch b.ply" in shlex.split(capsys.readouterr().err.partition("run: ")[2])
     (folder / "my scans").mkdir()
     assert run("decode", "my scans") != 0
-    assert "my scans" in shlex.split(capsys.readouterr().err.partition("run: ")[2].partition(";")[0])
+    assert "my scans" in shlex.split(
+        capsys.readouterr().err.partition("run: ")[2].partition(";")[0]
+    )
 
 
 @pytest.mark.parametrize("pattern", ["walk", "walk/w_####.ply", "walk/w_%04d.ply", "walk/*.ply"])
@@ -229,7 +264,9 @@ def test_a_range_of_frames_is_taken_from_each_kind_of_sequence(walk, capsys):
     assert run("encode", "walk.npz", "--frames", "5:2") == 2
 
 
-@pytest.mark.parametrize(("name", "meant"), [("units", "unit=mm"), ("up_axis", "up=mm"), ("FPS", "frame_rate=mm")])
+@pytest.mark.parametrize(
+    ("name", "meant"), [("units", "unit=mm"), ("up_axis", "up=mm"), ("FPS", "frame_rate=mm")]
+)
 def test_metadata_under_a_name_that_nothing_reads_are_questioned(folder, capsys, name, meant):
     assert run("encode", "ring.ply", "-f", "--meta", f"{name}=mm") == 2
     assert meant in capsys.readouterr().err

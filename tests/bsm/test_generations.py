@@ -20,15 +20,24 @@ MADE = {
     "tetrahedron": tetrahedron(),
     "far": (torus(12, 8).positions * 1e-3 + 1e4, torus(12, 8).faces),
     "uneven": (torus(12, 8).positions * (1.0, 0.5, 1e2), torus(12, 8).faces),
-    "random": (np.random.default_rng(1).normal(size=(60, 3)), np.random.default_rng(2).integers(0, 60, (200, 3))),
+    "random": (
+        np.random.default_rng(1).normal(size=(60, 3)),
+        np.random.default_rng(2).integers(0, 60, (200, 3)),
+    ),
 }
 MOST_BYTES = 300_000  # of real files: larger ones say nothing more
 
 
 def real():
     folder = mesh_folder()
-    paths = [] if folder is None else [path for room in ("assets", "hostile") for path in (folder / room).iterdir()]
-    return sorted(f"{path.parent.name}/{path.name}" for path in paths if path.stat().st_size < MOST_BYTES)
+    paths = (
+        []
+        if folder is None
+        else [path for room in ("assets", "hostile") for path in (folder / room).iterdir()]
+    )
+    return sorted(
+        f"{path.parent.name}/{path.name}" for path in paths if path.stat().st_size < MOST_BYTES
+    )
 
 
 def generations(mesh, preset, count=GENERATIONS):
@@ -58,7 +67,9 @@ def test_vertices_that_rounding_puts_at_one_place_are_one_from_the_second_genera
 
 @pytest.mark.real
 @pytest.mark.parametrize("preset", ["grid14", "lossless"])
-@pytest.mark.parametrize("name", real() or [pytest.param("", marks=pytest.mark.skip("no real meshes"))])
+@pytest.mark.parametrize(
+    "name", real() or [pytest.param("", marks=pytest.mark.skip("no real meshes"))]
+)
 def test_real_meshes_come_back_in_every_generation(name, preset, meshes):
     """Once two generations are the same bytes, all that follow are."""
     try:
@@ -68,7 +79,8 @@ def test_real_meshes_come_back_in_every_generation(name, preset, meshes):
         pytest.skip("no mesh that can be encoded")
     assert second == third
     kept = [bsm.decode(data) for data in (first, second)]
-    assert first == second or len(kept[1].positions) < len(kept[0].positions)  # vertices at one place became one
+    # Vertices at one place became one.
+    assert first == second or len(kept[1].positions) < len(kept[0].positions)
     assert np.array_equal(*(np.unique(mesh.positions, axis=0) for mesh in kept))
 
 
@@ -78,7 +90,9 @@ def printed(capsys, *words):
     return capsys.readouterr()
 
 
-def test_a_stream_says_how_it_was_made_and_the_next_one_that_it_is_another_generation(tmp_path, capsys):
+def test_a_stream_says_how_it_was_made_and_the_next_one_that_it_is_another_generation(
+    tmp_path, capsys
+):
     source, stream, again = tmp_path / "a.ply", tmp_path / "a.bsm", tmp_path / "b.ply"
     bsm.save(torus(20, 12), source)
     assert not printed(capsys, "encode", source).err.count("generation")
@@ -106,7 +120,9 @@ def test_a_stream_says_how_it_was_made_and_the_next_one_that_it_is_another_gener
 
 
 @pytest.mark.parametrize("kind", WRITTEN_FORMATS)
-def test_a_decoded_file_says_so_and_the_next_stream_which_generation_it_is(kind, tmp_path, capsys, monkeypatch):
+def test_a_decoded_file_says_so_and_the_next_stream_which_generation_it_is(
+    kind, tmp_path, capsys, monkeypatch
+):
     if kind == "3mf":
         pytest.importorskip("lib3mf", reason="needs lib3mf (extra formats)")
     monkeypatch.chdir(tmp_path)
@@ -130,4 +146,7 @@ def test_frames_say_how_they_were_made(name, tmp_path, capsys):
     assert " balanced sha256=" in printed(capsys, "info", tmp_path / "a.bsm").out
     printed(capsys, "encode", tmp_path / "a.npz", "-f")
     printed(capsys, "decode", tmp_path / "a.bsm", "-o", tmp_path / name)
-    assert "generation 2: errors add up" in printed(capsys, "encode", tmp_path / name, "-o", tmp_path / "b.bsm").err
+    assert (
+        "generation 2: errors add up"
+        in printed(capsys, "encode", tmp_path / name, "-o", tmp_path / "b.bsm").err
+    )

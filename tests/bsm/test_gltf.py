@@ -39,7 +39,9 @@ def coded_of(document):
     found = {}
     for number, accessor in enumerate(document.tree["accessors"]):
         extension = (
-            views[accessor["bufferView"]].get("extensions", {}).get(EXTENSION) if "bufferView" in accessor else None
+            views[accessor["bufferView"]].get("extensions", {}).get(EXTENSION)
+            if "bufferView" in accessor
+            else None
         )
         if extension:
             found[number] = (extension, accessor)
@@ -52,8 +54,16 @@ def test_geometry_is_coded_and_all_else_stays(source, tmp_path, capsys):
     assert "2 of 2 primitives coded" in capsys.readouterr().err
     assert main(["glb", str(source), "-o", str(target), "-f", "--json"]) == 0
     facts = json.loads(capsys.readouterr().out)
-    assert (facts["primitives"], facts["coded"], facts["unchanged"], facts["images"]) == (2, 2, {}, [])
-    assert (facts["input_bytes"], facts["output_bytes"]) == (source.stat().st_size, target.stat().st_size)
+    assert (facts["primitives"], facts["coded"], facts["unchanged"], facts["images"]) == (
+        2,
+        2,
+        {},
+        [],
+    )
+    assert (facts["input_bytes"], facts["output_bytes"]) == (
+        source.stat().st_size,
+        target.stat().st_size,
+    )
     assert 0 < facts["max_error_of_component"] < 0.01 and "unchanged images" in facts["notes"][0]
     before, after = read_document(str(source)), read_document(str(target))
     assert target.stat().st_size < 0.3 * source.stat().st_size
@@ -63,7 +73,9 @@ def test_geometry_is_coded_and_all_else_stays(source, tmp_path, capsys):
     assert after.tree["extensionsRequired"] == [EXTENSION]
     assert main(["encode", str(target), "-o", str(tmp_path / "small.bsm")]) == 0
     assert f"compressed already, by {EXTENSION}: errors add up" in capsys.readouterr().err
-    assert after.view(after.tree["images"][0]["bufferView"]) == before.view(before.tree["images"][0]["bufferView"])
+    assert after.view(after.tree["images"][0]["bufferView"]) == before.view(
+        before.tree["images"][0]["bufferView"]
+    )
 
     def value(document, *path):
         node = document.tree
@@ -71,7 +83,10 @@ def test_geometry_is_coded_and_all_else_stays(source, tmp_path, capsys):
             node = node[key]
         return document.array(node)
 
-    for path in (("animations", 0, "samplers", 0, "input"), ("animations", 0, "samplers", 0, "output")):
+    for path in (
+        ("animations", 0, "samplers", 0, "input"),
+        ("animations", 0, "samplers", 0, "output"),
+    ):
         np.testing.assert_array_equal(value(after, *path), value(before, *path))
     matrices = after.tree["accessors"][after.tree["skins"][0]["inverseBindMatrices"]]
     assert after.view(matrices["bufferView"]) == before.view(7)
@@ -84,12 +99,17 @@ def test_accessors_say_what_the_stream_holds(source):
     streams = sorted({extension["stream"] for extension, _ in coded.values()})
     assert len(streams) == 2  # of the mesh with a skin, and of the one that morphs
     morphing = bsm.decode(after.view(streams[1]))
-    np.testing.assert_allclose(next(a.values for a in morphing.attributes if a.name == "0/POSITION"), 0.25, atol=1e-4)
+    np.testing.assert_allclose(
+        next(a.values for a in morphing.attributes if a.name == "0/POSITION"), 0.25, atol=1e-4
+    )
     stream = streams[0]
     coded = {number: pair for number, pair in coded.items() if pair[0]["stream"] == stream}
     mesh = bsm.decode(after.view(stream))
     shape = drawn(mesh)
-    kinds = {extension["attribute"]: (a["count"], a["componentType"], a["type"]) for extension, a in coded.values()}
+    kinds = {
+        extension["attribute"]: (a["count"], a["componentType"], a["type"])
+        for extension, a in coded.values()
+    }
     assert kinds == {
         "POSITION": (len(shape.arrays["POSITION"]), 5126, "VEC3"),
         "TEXCOORD_0": (len(shape.arrays["POSITION"]), 5126, "VEC2"),
@@ -108,7 +128,10 @@ def test_accessors_say_what_the_stream_holds(source):
 
 
 def test_colors_of_a_stream_of_a_mesh_become_linear():
-    mesh = replace(torus(8, 6), attributes=(bsm.Attribute("color", np.full((48, 3), 188, np.uint8), semantic="color"),))
+    mesh = replace(
+        torus(8, 6),
+        attributes=(bsm.Attribute("color", np.full((48, 3), 188, np.uint8), semantic="color"),),
+    )
     np.testing.assert_allclose(array_of((mesh, drawn(mesh)), "COLOR_0", None), 0.5029, atol=1e-4)
 
 
@@ -121,13 +144,23 @@ def test_quantized_geometry_becomes_floats():
         built.tree["accessors"][number] |= built.tree["accessors"].pop()
     after = Document(compress(Document(built.bytes), CODE).data)
     coded = coded_of(after)
-    assert {extension["attribute"] for extension, _ in coded.values()} >= {"POSITION", "TEXCOORD_0", "0/POSITION"}
+    assert {extension["attribute"] for extension, _ in coded.values()} >= {
+        "POSITION",
+        "TEXCOORD_0",
+        "0/POSITION",
+    }
     for extension, accessor in coded.values():
         if extension["attribute"] in ("POSITION", "TEXCOORD_0", "0/POSITION"):
             assert accessor["componentType"] == 5126 and "normalized" not in accessor
-    first = after.tree["accessors"][after.tree["meshes"][0]["primitives"][0]["attributes"]["POSITION"]]
+    first = after.tree["accessors"][
+        after.tree["meshes"][0]["primitives"][0]["attributes"]["POSITION"]
+    ]
     np.testing.assert_allclose(first["max"], mesh.positions.max(axis=0) / 2, atol=2e-3)
-    stream = next(extension["stream"] for extension, _ in coded.values() if extension["attribute"] == "0/POSITION")
+    stream = next(
+        extension["stream"]
+        for extension, _ in coded.values()
+        if extension["attribute"] == "0/POSITION"
+    )
     moved = next(a for a in bsm.decode(after.view(stream)).attributes if a.name == "0/POSITION")
     np.testing.assert_allclose(moved.values, 16 / 127, atol=1e-4)
 
@@ -139,7 +172,9 @@ def test_what_plain_geometry_shares_with_coded_one_is_let_go():
     built.tree["accessors"][4]["bufferView"] = shared
     index = built.array(corners)
     built.tree["accessors"][index] |= {"bufferView": shared, "byteOffset": len(merged)}
-    few = built.array(np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], np.float32), min=[0, 0, 0], max=[1, 1, 0])
+    few = built.array(
+        np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], np.float32), min=[0, 0, 0], max=[1, 1, 0]
+    )
     built.mesh({"attributes": {"POSITION": few}, "indices": index})
     found = compress(Document(built.bytes), CODE)
     assert found.coded == 2
@@ -153,15 +188,22 @@ def pieces_of(document, stream):
     """Triangles of each primitive that a stream holds, as coordinates."""
     mesh = bsm.decode(document.view(stream))
     shape = drawn(mesh)
-    return [shape.arrays["POSITION"][shape.index[start : start + count]] for start, count in shape.pieces]
+    return [
+        shape.arrays["POSITION"][shape.index[start : start + count]]
+        for start, count in shape.pieces
+    ]
 
 
 def test_primitives_of_a_mesh_share_a_stream(source):
     document = read_document(str(source))
     given = document.tree["meshes"][0]["primitives"]
     half = document.tree["accessors"][4]["count"] // 6 * 3
-    for number, (offset, count) in enumerate([(0, half), (2 * half, document.tree["accessors"][4]["count"] - half)]):
-        document.tree["accessors"].append({**document.tree["accessors"][4], "byteOffset": offset, "count": count})
+    for number, (offset, count) in enumerate(
+        [(0, half), (2 * half, document.tree["accessors"][4]["count"] - half)]
+    ):
+        document.tree["accessors"].append(
+            {**document.tree["accessors"][4], "byteOffset": offset, "count": count}
+        )
         if number:
             given.append(copy.deepcopy(given[0]))
         given[number]["indices"] = len(document.tree["accessors"]) - 1
@@ -175,7 +217,9 @@ def test_primitives_of_a_mesh_share_a_stream(source):
     extension = after.tree["bufferViews"][accessors[0]["bufferView"]]["extensions"][EXTENSION]
     pieces = pieces_of(after, extension["stream"])
     positions, faces = document.array(0), document.array(4).ravel()
-    for accessor, piece, corners in zip(accessors, pieces, (faces[:half], faces[half:]), strict=True):
+    for accessor, piece, corners in zip(
+        accessors, pieces, (faces[:half], faces[half:]), strict=True
+    ):
         assert accessor["count"] == len(corners) == len(piece)
         centers = [some.reshape(-1, 3, 3).mean(axis=1) for some in (piece, positions[corners])]
         apart = np.linalg.norm(centers[0][:, None] - centers[1][None], axis=-1)
@@ -187,7 +231,9 @@ def test_equal_meshes_share_a_stream():
     built, mesh = Built(), torus(40, 24)
     for number, scale in enumerate((1.0, 1.0, 1.5)):
         table = (scale * mesh.positions).astype(np.float32)
-        positions = built.array(table, min=table.min(axis=0).tolist(), max=table.max(axis=0).tolist())
+        positions = built.array(
+            table, min=table.min(axis=0).tolist(), max=table.max(axis=0).tolist()
+        )
         normals = built.array(mesh.positions.astype(np.float32) / 2, name=f"normals {number}")
         indices = built.array(mesh.faces.astype(np.uint16).ravel())
         built.mesh({"attributes": {"POSITION": positions, "NORMAL": normals}, "indices": indices})
@@ -197,7 +243,11 @@ def test_equal_meshes_share_a_stream():
     assert compressed.coded == 3 and len(after.streams) == 2
     one, two, larger = (mesh["primitives"][0] for mesh in after.tree["meshes"])
     assert one["indices"] == two["indices"] != larger["indices"]
-    assert one["attributes"]["POSITION"] == two["attributes"]["POSITION"] != larger["attributes"]["POSITION"]
+    assert (
+        one["attributes"]["POSITION"]
+        == two["attributes"]["POSITION"]
+        != larger["attributes"]["POSITION"]
+    )
     named = [after.tree["accessors"][primitive["attributes"]["NORMAL"]] for primitive in (one, two)]
     assert [accessor["name"] for accessor in named] == ["normals 0", "normals 1"]
     assert named[0]["bufferView"] == named[1]["bufferView"]
@@ -218,13 +268,17 @@ def test_fallback_holds_what_decoders_fill_in(source, tmp_path):
     assert "extensionsRequired" not in after.tree and EXTENSION in after.tree["extensionsUsed"]
     coded = coded_of(after)
     primitive = after.tree["meshes"][0]["primitives"][0]
-    extension = after.tree["bufferViews"][after.tree["accessors"][primitive["indices"]]["bufferView"]]["extensions"][
-        EXTENSION
-    ]
+    extension = after.tree["bufferViews"][
+        after.tree["accessors"][primitive["indices"]]["bufferView"]
+    ]["extensions"][EXTENSION]
     mesh = bsm.decode(after.view(extension["stream"]))
     for view in after.tree["bufferViews"]:
         view.pop("extensions", None)  # as loaders see it that do not know them
-    plain = {s["attribute"]: after.array(n) for n, (s, _) in coded.items() if s["stream"] == extension["stream"]}
+    plain = {
+        s["attribute"]: after.array(n)
+        for n, (s, _) in coded.items()
+        if s["stream"] == extension["stream"]
+    }
     np.testing.assert_array_equal(
         plain["POSITION"][plain["indices"].ravel()], mesh.positions[mesh.faces.ravel()].astype("f4")
     )
@@ -234,8 +288,12 @@ def test_fallback_holds_what_decoders_fill_in(source, tmp_path):
 def waves(count=8):
     mesh = torus(40, 24)
     times = np.linspace(0, 2 * np.pi, count, endpoint=False)
-    frames = np.stack([mesh.positions * (1 + 0.1 * np.sin(3 * mesh.positions[:, :1] + time)) for time in times])
-    across = ((mesh.positions - mesh.positions.min(axis=0)) / np.ptp(mesh.positions, axis=0)).astype(np.float32)
+    frames = np.stack(
+        [mesh.positions * (1 + 0.1 * np.sin(3 * mesh.positions[:, :1] + time)) for time in times]
+    )
+    across = (
+        (mesh.positions - mesh.positions.min(axis=0)) / np.ptp(mesh.positions, axis=0)
+    ).astype(np.float32)
     uv = bsm.codec.geometry.attributes.Attribute("uv", across[:, :2], "vertex", "texcoord")
     return bsm.encode_sequence(
         frames, mesh.faces, mesh_attributes=(uv,), metadata={"up": "z", "name": "waves"}, step=0.005
@@ -249,25 +307,33 @@ def test_a_sequence_becomes_a_scene_that_moves(tmp_path, capsys):
     assert main(["glb", given[0], "-o", given[1]]) == 0
     document = read_document(given[1])
     tree = document.tree
-    assert document.view(0) == stream and tree["meshes"][0]["extensions"][EXTENSION] == {"stream": 0}
+    assert document.view(0) == stream and tree["meshes"][0]["extensions"][EXTENSION] == {
+        "stream": 0
+    }
     assert tree["nodes"][0]["name"] == "waves" and tree["nodes"][0]["rotation"][0] < 0
     first = bsm.decode_sequence(stream)[0][0].astype(np.float32)
-    found = {extension["attribute"]: accessor for extension, accessor in coded_of(document).values()}
-    assert found["POSITION"]["max"] == first.max(axis=0).tolist() and found["indices"]["count"] == 3 * 40 * 24 * 2
-    assert {name: value["type"] for name, value in found.items() if value["count"] == len(first)} == {
-        "POSITION": "VEC3",
-        "NORMAL": "VEC3",
-        "TEXCOORD_0": "VEC2",
+    found = {
+        extension["attribute"]: accessor for extension, accessor in coded_of(document).values()
     }
+    assert (
+        found["POSITION"]["max"] == first.max(axis=0).tolist()
+        and found["indices"]["count"] == 3 * 40 * 24 * 2
+    )
+    assert {
+        name: value["type"] for name, value in found.items() if value["count"] == len(first)
+    } == {"POSITION": "VEC3", "NORMAL": "VEC3", "TEXCOORD_0": "VEC2"}
     for more in (["--fallback"], ["--quick"], ["--preset", "fine"], ["--images", "webp"]):
         assert main(["glb", given[0], "-o", given[1], "-f", *more]) == 2
     (tmp_path / "still.bsm").write_bytes(bsm.encode(torus(12, 8)))
-    assert main(["glb", str(tmp_path / "still.bsm"), "-o", given[1], "-f"]) == 0, "a mesh is coded anew"
+    assert main(["glb", str(tmp_path / "still.bsm"), "-o", given[1], "-f"]) == 0, (
+        "a mesh is coded anew"
+    )
     assert "errors add up" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(
-    ("count", "more", "light"), [(15, [], False), (16, [], True), (16, ["--no-quick"], False), (1, ["--quick"], True)]
+    ("count", "more", "light"),
+    [(15, [], False), (16, [], True), (16, ["--no-quick"], False), (1, ["--quick"], True)],
 )
 def test_scenes_of_many_meshes_are_quick_to_decode(tmp_path, count, more, light):
     bsm.save(torus(24, 16), tmp_path / "one.glb")
@@ -319,18 +385,29 @@ def test_a_gltf_with_files_beside_it(tmp_path):
         (tmp_path / "scene.gltf").write_text(json.dumps(tree))
         with pytest.raises(bsm.FormatError, match=why):
             compress(read_document(str(tmp_path / "scene.gltf")), CODE)
-        words = ["encode", str(tmp_path / "scene.gltf"), "--animation", "0", "-o", str(tmp_path / "a.bsm")]
+        words = [
+            "encode",
+            str(tmp_path / "scene.gltf"),
+            "--animation",
+            "0",
+            "-o",
+            str(tmp_path / "a.bsm"),
+        ]
         assert main(words) == 3
 
 
 def test_what_an_animation_uses_stays(source):
     document = read_document(str(source))
-    document.tree["animations"][0]["samplers"][0]["output"] = 0  # the positions of the mesh with a skin
+    # The positions of the mesh with a skin.
+    document.tree["animations"][0]["samplers"][0]["output"] = 0
     found = compress(document, CODE)
     after = Document(found.data)
     kept = after.tree["animations"][0]["samplers"][0]["output"]
     np.testing.assert_array_equal(after.array(kept), document.array(0))
-    assert found.coded == 2 and after.tree["meshes"][0]["primitives"][0]["attributes"]["POSITION"] != kept
+    assert (
+        found.coded == 2
+        and after.tree["meshes"][0]["primitives"][0]["attributes"]["POSITION"] != kept
+    )
 
 
 def test_numbers_are_as_short_as_single_precision_allows(source):
@@ -343,7 +420,24 @@ def test_numbers_are_as_short_as_single_precision_allows(source):
     assert json.dumps(short["extras"]["numbers"]) == json.dumps(numbers), "extras are not touched"
 
 
-WRONG = (-1, 0, 2**31 - 1, 2**63, -(2**40), 1.5, 1e308, float("nan"), None, True, "x", "data:,a\0", [], {}, [[]], 5125)
+WRONG = (
+    -1,
+    0,
+    2**31 - 1,
+    2**63,
+    -(2**40),
+    1.5,
+    1e308,
+    float("nan"),
+    None,
+    True,
+    "x",
+    "data:,a\0",
+    [],
+    {},
+    [[]],
+    5125,
+)
 
 
 def test_whatever_a_tree_holds_is_an_error_of_ours():
@@ -378,7 +472,12 @@ def test_whatever_a_tree_holds_is_an_error_of_ours():
 def test_bytes_that_are_used_again_and_again_are_counted():
     """A mebibyte of floats as many overlapping accessors of as many primitives of one mesh."""
     built = Built()
-    part = {"bufferView": built.view(bytes(1 << 20)), "componentType": 5126, "type": "VEC3", "count": 80_000}
+    part = {
+        "bufferView": built.view(bytes(1 << 20)),
+        "componentType": 5126,
+        "type": "VEC3",
+        "count": 80_000,
+    }
     built.tree["accessors"] = [{**part, "byteOffset": 4 * k} for k in range(200)]
     built.mesh(*({"attributes": {"POSITION": k}} for k in range(200)))
     with pytest.raises(bsm.LimitError, match="memory"):
@@ -388,7 +487,9 @@ def test_bytes_that_are_used_again_and_again_are_counted():
 def test_trees_that_are_nested_without_end(tmp_path):
     path = tmp_path / "deep.gltf"
     for depth in (700, 100_000):
-        path.write_text('{"asset": {"version": "2.0"}, "extras": ' + "[" * depth + "]" * depth + "}")
+        path.write_text(
+            '{"asset": {"version": "2.0"}, "extras": ' + "[" * depth + "]" * depth + "}"
+        )
         with contextlib.suppress(bsm.FormatError):
             compress(read_document(str(path)), CODE)
 

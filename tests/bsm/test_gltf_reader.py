@@ -24,9 +24,14 @@ CORNERS = np.array([0, 1, 2, 0, 2, 3], np.uint16)
 def one(attributes=None, node=None, **primitive):
     """A square with more attributes, in one node."""
     built = Built()
-    given = {"POSITION": built.array(POINTS)} | {n: built.array(*v) for n, v in (attributes or {}).items()}
+    given = {"POSITION": built.array(POINTS)} | {
+        n: built.array(*v) for n, v in (attributes or {}).items()
+    }
     built.nodes(
-        {"mesh": built.mesh({"attributes": given, "indices": built.array(CORNERS), **primitive}), **(node or {})}
+        {
+            "mesh": built.mesh({"attributes": given, "indices": built.array(CORNERS), **primitive}),
+            **(node or {}),
+        }
     )
     return built
 
@@ -34,14 +39,20 @@ def one(attributes=None, node=None, **primitive):
 def test_normalized_integers_are_shares():
     built = Built()
     points = built.array(np.rint(POINTS * 32767).astype(np.int16), normalized=True)
-    uv = built.array(np.array([[0, 0], [65535, 0], [65535, 65535], [0, 65535]], np.uint16), normalized=True)
+    uv = built.array(
+        np.array([[0, 0], [65535, 0], [65535, 65535], [0, 65535]], np.uint16), normalized=True
+    )
     plain = built.array(np.array([[0, 0], [3, 0], [3, 3], [0, 3]], np.uint8))
     given = {"POSITION": points, "TEXCOORD_0": uv, "TEXCOORD_1": plain}
     built.nodes({"mesh": built.mesh({"attributes": given, "indices": built.array(CORNERS)})})
     mesh = built.read().mesh
     np.testing.assert_array_equal(mesh.positions, POINTS)
-    np.testing.assert_array_equal(attribute(mesh, "texcoord").values, [[0, 1], [1, 1], [1, 0], [0, 0]])
-    np.testing.assert_array_equal(attribute(mesh, "texcoord1").values, [[0, 1], [3, 1], [3, -2], [0, -2]])
+    np.testing.assert_array_equal(
+        attribute(mesh, "texcoord").values, [[0, 1], [1, 1], [1, 0], [0, 0]]
+    )
+    np.testing.assert_array_equal(
+        attribute(mesh, "texcoord1").values, [[0, 1], [3, 1], [3, -2], [0, -2]]
+    )
 
 
 @pytest.mark.parametrize("blank", [False, True])
@@ -87,12 +98,18 @@ def test_normals_of_placed_nodes_agree_with_their_faces(place):
     across = np.cross(points[:, 1] - points[:, 0], points[:, 2] - points[:, 0])
     across = np.repeat(across / np.linalg.norm(across, axis=1, keepdims=True), 3, axis=0)
     built = Built()
-    given = {"POSITION": built.array(points.reshape(-1, 3).astype("f4")), "NORMAL": built.array(across.astype("f4"))}
+    given = {
+        "POSITION": built.array(points.reshape(-1, 3).astype("f4")),
+        "NORMAL": built.array(across.astype("f4")),
+    }
     mesh = built.mesh({"attributes": given})
     still, moved = (built.nodes({"mesh": mesh, **more}).read().mesh for more in ({}, place))
     assert alignment(still) > 0.999 and alignment(moved) > 0.999
     sides = [np.cross(*np.moveaxis(m.positions[m.faces], 1, 0)[:2]) for m in (still, moved)]
-    volumes = [(side * m.positions[m.faces][:, 2]).sum() for side, m in zip(sides, (still, moved), strict=True)]
+    volumes = [
+        (side * m.positions[m.faces][:, 2]).sum()
+        for side, m in zip(sides, (still, moved), strict=True)
+    ]
     assert volumes[0] * volumes[1] > 0, "a mirror turns the faces around, too"
 
 
@@ -108,10 +125,18 @@ def test_normals_of_mirrored_parts_of_trimesh_agree_with_their_faces(kind, tmp_p
     made.add_geometry(ball, transform=np.diag([-1.0, 2.0, 1.0, 1.0]))
     if kind == "dae":
         pytest.importorskip("collada")
-        text = collada("", f'<node id="x"><scale>1 -3 1</scale>{SHOWN}</node>').decode().replace("1 1 0<", "0 1 1<")
-        accessor = re.search("<technique_common>.*?</source>", text, re.DOTALL)[0].replace("#a", "#na")
+        text = (
+            collada("", f'<node id="x"><scale>1 -3 1</scale>{SHOWN}</node>')
+            .decode()
+            .replace("1 1 0<", "0 1 1<")
+        )
+        accessor = re.search("<technique_common>.*?</source>", text, re.DOTALL)[0].replace(
+            "#a", "#na"
+        )
         normals = f'<source id="n"><float_array id="na" count="9">{"0 -0.7071 0.7071 " * 3}</float_array>{accessor}'
-        text = text.replace("<vertices", f"{normals}<vertices").replace('offset="0"/>', 'offset="0"/>' + NORMAL)
+        text = text.replace("<vertices", f"{normals}<vertices").replace(
+            'offset="0"/>', 'offset="0"/>' + NORMAL
+        )
         (tmp_path / "a.dae").write_text(text)
         mesh = read_mesh(tmp_path / "a.dae").mesh
     else:
@@ -134,9 +159,14 @@ def test_details_that_a_mesh_cannot_hold_are_named():
 def test_colors_of_different_kinds_are_shares_of_one_range():
     built = one({"COLOR_0": (np.full((4, 3), 51, np.uint8),)})
     built.tree["accessors"][-2]["normalized"] = True
-    floats = {"POSITION": built.array(POINTS), "COLOR_0": built.array(np.full((4, 3), 0.3001, np.float32))}
+    floats = {
+        "POSITION": built.array(POINTS),
+        "COLOR_0": built.array(np.full((4, 3), 0.3001, np.float32)),
+    }
     plain = {"POSITION": built.array(POINTS)}
-    built.mesh(*({"attributes": given, "indices": built.array(CORNERS)} for given in (floats, plain)))
+    built.mesh(
+        *({"attributes": given, "indices": built.array(CORNERS)} for given in (floats, plain))
+    )
     built.nodes({"mesh": 0}, {"mesh": 1})
     colors = attribute(built.read().mesh, "color").values[[0, 4, 8], 0]
     assert conventions.to_linear(colors) == pytest.approx([0.2, 0.3001, 1.0], abs=2e-5)
@@ -151,14 +181,17 @@ def test_faces_of_mirrored_joints_are_turned_alone():
     joints = np.repeat(np.uint8([[0, 0, 0, 0], [1, 0, 0, 0]]), 4, axis=0)
     doubled = {
         "JOINTS_0": joints,
-        "POSITION": np.tile(POINTS, (2, 1)) + np.repeat(np.float32([[0, 0, 0], [0, 5, 0]]), 4, axis=0),
+        "POSITION": np.tile(POINTS, (2, 1))
+        + np.repeat(np.float32([[0, 0, 0], [0, 5, 0]]), 4, axis=0),
     }
     doubled |= {
         "NORMAL": np.tile(np.float32([0, 0, 1]), (8, 1)),
         "WEIGHTS_0": np.tile(np.float32([1, 0, 0, 0]), (8, 1)),
     }
     given |= {name: built.array(values) for name, values in doubled.items()}
-    built.tree["meshes"][0]["primitives"][0]["indices"] = built.array(np.concatenate([CORNERS, CORNERS + 4]))
+    built.tree["meshes"][0]["primitives"][0]["indices"] = built.array(
+        np.concatenate([CORNERS, CORNERS + 4])
+    )
     built.tree["nodes"] += [{}, {"scale": [-1, 1, 1]}]
     built.tree |= {"skins": [{"joints": [1, 2]}], "scenes": [{"nodes": [0, 1, 2]}]}
     assert alignment(built.read().mesh) > 0.999
@@ -196,7 +229,9 @@ def test_colors_are_linear_in_a_file_and_in_srgb_in_a_mesh(dtype, width, tmp_pat
 @pytest.mark.parametrize("width", [3, 4])
 def test_each_byte_of_a_color_comes_back_from_a_glb(width, tmp_path):
     bytes_ = np.repeat(np.arange(256, dtype=np.uint8)[:, None], width, axis=1)
-    mesh = bsm.TriangleMesh(np.eye(256, 3), [[0, 1, 2]], [bsm.Attribute("color", bytes_, semantic="color")])
+    mesh = bsm.TriangleMesh(
+        np.eye(256, 3), [[0, 1, 2]], [bsm.Attribute("color", bytes_, semantic="color")]
+    )
     bsm.save(mesh, tmp_path / "a.glb")
     document = read_document(str(tmp_path / "a.glb"))
     stored = document.numbers(next(document.primitives())["attributes"]["COLOR_0"])
@@ -215,7 +250,10 @@ def test_each_byte_of_a_color_comes_back_from_a_glb(width, tmp_path):
 )
 def test_strips_and_fans(mode, corners, expected):
     built = Built()
-    primitive = {"attributes": {"POSITION": built.array(POINTS)}, "indices": built.array(np.array(corners, np.uint8))}
+    primitive = {
+        "attributes": {"POSITION": built.array(POINTS)},
+        "indices": built.array(np.array(corners, np.uint8)),
+    }
     built.nodes({"mesh": built.mesh({**primitive, "mode": mode})})
     found = built.read()
     turned = [sorted((row[k:] + row[:k]) for k in range(3))[0] for row in found.mesh.faces.tolist()]
@@ -233,12 +271,20 @@ def test_instances_are_placed_and_their_other_attributes_named():
         "_ID": built.array(np.arange(2, dtype=np.float32)),
     }
     node = built.tree["nodes"][0]
-    node |= {"translation": [1, 0, 0], "extensions": {"EXT_mesh_gpu_instancing": {"attributes": places}}}
+    node |= {
+        "translation": [1, 0, 0],
+        "extensions": {"EXT_mesh_gpu_instancing": {"attributes": places}},
+    }
     built.tree["extensionsUsed"] = ["EXT_mesh_gpu_instancing"]
     read = built.read()
-    assert "left out: _ID of instances" in read.notes and read.mesh.faces.tolist()[2:] == [[6, 5, 4], [7, 6, 4]]
+    assert "left out: _ID of instances" in read.notes and read.mesh.faces.tolist()[2:] == [
+        [6, 5, 4],
+        [7, 6, 4],
+    ]
     turned = POINTS[:, [1, 0, 2]] * [-2, -2, 2] + [3, 0, 0]
-    np.testing.assert_allclose(read.mesh.positions, np.concatenate([np.add(POINTS, [1, 0, 5]), turned]), atol=1e-6)
+    np.testing.assert_allclose(
+        read.mesh.positions, np.concatenate([np.add(POINTS, [1, 0, 5]), turned]), atol=1e-6
+    )
 
 
 def test_instances_that_are_too_many_or_do_not_match_are_refused():
@@ -251,7 +297,11 @@ def test_instances_that_are_too_many_or_do_not_match_are_refused():
     with pytest.raises(bsm.FormatError, match="as many"):
         built.read()
     del places["SCALE"]
-    built.tree["accessors"][places["TRANSLATION"]] = {"componentType": 5126, "type": "VEC3", "count": 40_000_000}
+    built.tree["accessors"][places["TRANSLATION"]] = {
+        "componentType": 5126,
+        "type": "VEC3",
+        "count": 40_000_000,
+    }
     with pytest.raises(bsm.LimitError, match="memory"):
         built.read()
 
@@ -288,7 +338,11 @@ def test_morph_targets_and_skins_stand_as_at_rest():
         weights[:, 0] = share
         primitive["attributes"][f"WEIGHTS_{number}"] = built.array(weights)
     built.tree["skins"] = [{"joints": [1, 2]}]
-    built.nodes({"mesh": 0, "skin": 0, "translation": [9, 9, 9]}, {"translation": [0, 0, 4]}, {"scale": [2, 2, 2]})
+    built.nodes(
+        {"mesh": 0, "skin": 0, "translation": [9, 9, 9]},
+        {"translation": [0, 0, 4]},
+        {"scale": [2, 2, 2]},
+    )
     expected = 0.75 * (POINTS + np.array([0, 0, 4])) + 0.25 * 2 * POINTS
     np.testing.assert_allclose(built.read().mesh.positions, expected, atol=1e-6)
 
@@ -296,7 +350,12 @@ def test_morph_targets_and_skins_stand_as_at_rest():
 def test_primitives_that_share_vertices_take_those_that_they_use():
     built = one()
     built.tree["meshes"][0]["primitives"] = [
-        {"attributes": {"POSITION": 0}, "indices": built.array(CORNERS[k : k + 3]), "material": k // 3} for k in (0, 3)
+        {
+            "attributes": {"POSITION": 0},
+            "indices": built.array(CORNERS[k : k + 3]),
+            "material": k // 3,
+        }
+        for k in (0, 3)
     ]
     built.tree["materials"] = [{"name": "same"}, {"name": "same"}]
     mesh = built.read().mesh
@@ -308,7 +367,9 @@ def test_values_of_another_kind_are_told_with_the_place_of_the_reader():
     built = one(material=0)
     built.tree["meshes"][0]["weights"] = [1, 2]
     built.tree["meshes"][0]["primitives"][0]["targets"] = [{"POSITION": 0}]
-    with pytest.raises(bsm.FormatError, match=r"does not fit the others.* \(scene\.py, line \d+\)$"):
+    with pytest.raises(
+        bsm.FormatError, match=r"does not fit the others.* \(scene\.py, line \d+\)$"
+    ):
         built.read()
 
 
@@ -316,14 +377,19 @@ def test_images_that_are_elsewhere_are_named(tmp_path):
     built = one({"TEXCOORD_0": (POINTS[:, :2].copy(),)}, material=0)
     names = ("https://example.org/a.png", "lost.png", "../secret.png")
     built.tree |= {"images": [{"uri": name} for name in names], "textures": [{"source": 0}]}
-    built.tree["materials"] = [{"name": "m", "pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}]
+    built.tree["materials"] = [
+        {"name": "m", "pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}
+    ]
     (tmp_path / "a.glb").write_bytes(built.bytes)
     found = read_mesh(tmp_path / "a.glb")
     assert "the image https://example.org/a.png was left out: it lies at an address" in found.notes
     notes = " ".join(found.notes)
     assert "the image lost.png was left out: no such file beside the mesh" in notes
     assert "the image ../secret.png was left out: it is not in the folder" in notes
-    assert found.mesh.metadata["material.0.name"] == "m" and "material.0.baseColorTexture" not in found.mesh.metadata
+    assert (
+        found.mesh.metadata["material.0.name"] == "m"
+        and "material.0.baseColorTexture" not in found.mesh.metadata
+    )
 
 
 # ------------------------------------------------------------------------------------------------- compressed geometry
@@ -333,18 +399,29 @@ def test_draco(tmp_path, monkeypatch, capsys):
     draco = pytest.importorskip("DracoPy")
     shape = torus(20, 12)
     uv = np.random.default_rng(0).random((len(shape.positions), 2))
-    data = draco.encode(shape.positions, faces=shape.faces.astype(np.uint32), tex_coord=uv, quantization_bits=16)
+    data = draco.encode(
+        shape.positions, faces=shape.faces.astype(np.uint32), tex_coord=uv, quantization_bits=16
+    )
     held = {a["attribute_type"]: a["unique_id"] for a in draco.decode(data).attributes}
     count = len(draco.decode(data).points)
-    built = Built(extensionsUsed=["KHR_draco_mesh_compression"], extensionsRequired=["KHR_draco_mesh_compression"])
+    built = Built(
+        extensionsUsed=["KHR_draco_mesh_compression"],
+        extensionsRequired=["KHR_draco_mesh_compression"],
+    )
     numbers = {"POSITION": held[0], "TEXCOORD_0": held[3]}
     built.tree["accessors"] = [
         {"componentType": 5126, "count": count, "type": "VEC3"},
         {"componentType": 5126, "count": count, "type": "VEC2"},
         {"componentType": 5125, "count": shape.faces.size, "type": "SCALAR"},
     ]
-    extension = {"KHR_draco_mesh_compression": {"bufferView": built.view(data), "attributes": numbers}}
-    primitive = {"attributes": {"POSITION": 0, "TEXCOORD_0": 1}, "indices": 2, "extensions": extension}
+    extension = {
+        "KHR_draco_mesh_compression": {"bufferView": built.view(data), "attributes": numbers}
+    }
+    primitive = {
+        "attributes": {"POSITION": 0, "TEXCOORD_0": 1},
+        "indices": 2,
+        "extensions": extension,
+    }
     built.nodes({"mesh": built.mesh(primitive)})
     mesh = built.read().mesh
     middles = [np.sort(m.positions[m.faces].mean(axis=1), axis=0) for m in (mesh, shape)]
@@ -356,7 +433,9 @@ def test_draco(tmp_path, monkeypatch, capsys):
     assert "1 of 1 primitives coded" in said
     assert "a.glb: compressed already, by KHR_draco_mesh_compression: errors add up" in said
     grew = (tmp_path / "b.glb").stat().st_size > (tmp_path / "a.glb").stat().st_size
-    assert grew == ("larger than the input, as KHR_draco_mesh_compression had made that small" in said)
+    assert grew == (
+        "larger than the input, as KHR_draco_mesh_compression had made that small" in said
+    )
     assert read_document(str(tmp_path / "b.glb")).compressed == ["EXT_bsm_compression"]
     monkeypatch.setitem(sys.modules, "DracoPy", None)
     assert main(["encode", str(tmp_path / "a.glb"), "-o", str(tmp_path / "a.bsm")]) == 8
@@ -384,13 +463,25 @@ def test_meshopt():
     built = Built(extensionsUsed=["EXT_meshopt_compression"])
     points = built.array(POINTS)
     faces = built.array(CORNERS)
-    packed = (library.encode_vertex_buffer(POINTS), library.encode_index_buffer(CORNERS.astype(np.uint32), 6, 4))
+    packed = (
+        library.encode_vertex_buffer(POINTS),
+        library.encode_index_buffer(CORNERS.astype(np.uint32), 6, 4),
+    )
     shapes = ((12, 4, "ATTRIBUTES"), (2, 6, "TRIANGLES"))
     for place, (data, (stride, count, mode)) in enumerate(zip(packed, shapes, strict=True)):
-        how = {**built.tree["bufferViews"][built.view(bytes(data))], "byteStride": stride, "count": count, "mode": mode}
+        how = {
+            **built.tree["bufferViews"][built.view(bytes(data))],
+            "byteStride": stride,
+            "count": count,
+            "mode": mode,
+        }
         built.tree["bufferViews"][place]["extensions"] = {"EXT_meshopt_compression": how}
     built.data = bytes(48 + 12) + built.data[60:]  # only the compressed bytes are there
-    mesh = built.nodes({"mesh": built.mesh({"attributes": {"POSITION": points}, "indices": faces})}).read().mesh
+    mesh = (
+        built.nodes({"mesh": built.mesh({"attributes": {"POSITION": points}, "indices": faces})})
+        .read()
+        .mesh
+    )
     np.testing.assert_array_equal(mesh.positions, POINTS)
     np.testing.assert_array_equal(np.sort(mesh.faces, axis=1), [[0, 1, 2], [0, 2, 3]])
 
@@ -412,7 +503,9 @@ def test_our_own_scenes_are_read(tmp_path):
 def test_uses_of_primitives_are_counted_before_any_is_made(animated, tmp_path):
     """A thousand targets of one primitive, with three hundred skins: each skin would have tables of its own."""
     count = 300
-    built = one({"JOINTS_0": (np.zeros((4, 4), np.uint8),), "WEIGHTS_0": (np.eye(4, dtype=np.float32),)})
+    built = one(
+        {"JOINTS_0": (np.zeros((4, 4), np.uint8),), "WEIGHTS_0": (np.eye(4, dtype=np.float32),)}
+    )
     primitive = built.tree["meshes"][0]["primitives"][0]
     points = built.array(np.random.default_rng(0).random((count, 3)).astype(np.float32))
     primitive["attributes"] = {
@@ -423,9 +516,14 @@ def test_uses_of_primitives_are_counted_before_any_is_made(animated, tmp_path):
     primitive["targets"] = [{"POSITION": points}] * 1000
     built.tree["skins"] = [{"joints": [0]} for _ in range(300)]
     built.nodes({}, *({"mesh": 0, "skin": number} for number in range(300)))
-    times, moves = built.array(np.array([0, 1], np.float32)), built.array(np.array([[0, 0, 0], [1, 0, 0]], np.float32))
+    times, moves = (
+        built.array(np.array([0, 1], np.float32)),
+        built.array(np.array([[0, 0, 0], [1, 0, 0]], np.float32)),
+    )
     channel = {"sampler": 0, "target": {"node": 0, "path": "translation"}}
-    built.tree["animations"] = [{"samplers": [{"input": times, "output": moves}], "channels": [channel]}]
+    built.tree["animations"] = [
+        {"samplers": [{"input": times, "output": moves}], "channels": [channel]}
+    ]
     (tmp_path / "a.glb").write_bytes(built.bytes)
     script = """
 import resource, sys
@@ -443,7 +541,9 @@ except bsm.LimitError as error:
 
 def test_skins_of_many_nodes_are_counted():
     """Ten thousand nodes with a skin of ten thousand joints."""
-    built = one({"JOINTS_0": (np.zeros((4, 4), np.uint8),), "WEIGHTS_0": (np.eye(4, dtype=np.float32),)})
+    built = one(
+        {"JOINTS_0": (np.zeros((4, 4), np.uint8),), "WEIGHTS_0": (np.eye(4, dtype=np.float32),)}
+    )
     built.tree["skins"] = [{"joints": [0] * 10_000}]
     built.nodes({}, *({"mesh": 0, "skin": 0} for _ in range(10_000)))
     with pytest.raises(bsm.LimitError, match="work"):
@@ -461,13 +561,20 @@ def test_images_that_share_bytes_are_counted():
     built = one({"TEXCOORD_0": (POINTS[:, :2].copy(),)})
     image = built.view(b"\x89PNG\r\n\x1a\n" + bytes((1 << 20) + 3000))
     start, size = built.tree["bufferViews"][image]["byteOffset"], 1 << 20
-    built.tree["bufferViews"] += [{"buffer": 0, "byteOffset": start + k, "byteLength": size} for k in range(3000)]
-    built.tree["images"] = [{"bufferView": image + 1 + k, "mimeType": "image/png"} for k in range(3000)]
+    built.tree["bufferViews"] += [
+        {"buffer": 0, "byteOffset": start + k, "byteLength": size} for k in range(3000)
+    ]
+    built.tree["images"] = [
+        {"bufferView": image + 1 + k, "mimeType": "image/png"} for k in range(3000)
+    ]
     built.tree["textures"] = [{"source": k} for k in range(3000)]
-    built.tree["materials"] = [{"pbrMetallicRoughness": {"baseColorTexture": {"index": k}}} for k in range(3000)]
+    built.tree["materials"] = [
+        {"pbrMetallicRoughness": {"baseColorTexture": {"index": k}}} for k in range(3000)
+    ]
     corners = built.array(CORNERS)
     built.tree["meshes"][0]["primitives"] = [
-        {"attributes": {"POSITION": 0, "TEXCOORD_0": 1}, "indices": corners, "material": k} for k in range(3000)
+        {"attributes": {"POSITION": 0, "TEXCOORD_0": 1}, "indices": corners, "material": k}
+        for k in range(3000)
     ]
     with pytest.raises(bsm.LimitError, match="memory"):
         built.read()
@@ -498,7 +605,11 @@ def test_each_value_of_another_kind_is_named_by_its_place():
         tree[key] = kept
     assert refused > 200
     for part, wrong, expected in (
-        ("meshes", {"primitives": ["x"]}, r'meshes\[0\]\.primitives\[0\] must be an object, not "x"'),
+        (
+            "meshes",
+            {"primitives": ["x"]},
+            r'meshes\[0\]\.primitives\[0\] must be an object, not "x"',
+        ),
         ("nodes", {"rotation": [1]}, r"nodes\[0\]\.rotation must have 4 values, not 1"),
         ("meshes", {}, "'primitives' is missing"),
     ):

@@ -32,7 +32,12 @@ def ring(attributes=None, more=None, targets=(), count=24):
         given[name] = built.array(values, **how)
     moved = [{name: built.array(values) for name, values in target.items()} for target in targets]
     faces = built.array(shape.faces.astype(np.uint16).reshape(-1))
-    primitive = {"attributes": given, "indices": faces, **({"targets": moved} if moved else {}), **(more or {})}
+    primitive = {
+        "attributes": given,
+        "indices": faces,
+        **({"targets": moved} if moved else {}),
+        **(more or {}),
+    }
     built.nodes({"mesh": built.mesh(primitive)})
     return built, len(shape.positions)
 
@@ -47,7 +52,9 @@ def test_a_face_with_many_small_targets_is_coded(preset):
     for center in points[random.integers(0, len(points), 20)]:
         near = np.exp(-((points - center) ** 2).sum(axis=1) / 0.0008)
         near[near < 1e-3] = 0.0
-        targets.append({"POSITION": (near[:, None] * random.normal(size=3) * 0.006).astype(np.float32)})
+        targets.append(
+            {"POSITION": (near[:, None] * random.normal(size=3) * 0.006).astype(np.float32)}
+        )
     built, _ = ring(targets=targets, count=count)
     found, after = rewritten(built, {"preset": preset, "effort": "quick"})
     assert found.coded == 1, found.unchanged
@@ -55,7 +62,10 @@ def test_a_face_with_many_small_targets_is_coded(preset):
     bound = np.ptp(torus(count, 16).positions, axis=0).max() / (1 << 15)
     for number, target in enumerate(after.tree["meshes"][0]["primitives"][0]["targets"]):
         moved = after.array(target["POSITION"])
-        assert np.abs(np.sort(moved, axis=0) - np.sort(targets[number]["POSITION"], axis=0)).max() <= bound
+        assert (
+            np.abs(np.sort(moved, axis=0) - np.sort(targets[number]["POSITION"], axis=0)).max()
+            <= bound
+        )
 
 
 def test_a_scene_of_which_nothing_is_coded_is_said_first_and_not_written(tmp_path, capsys):
@@ -63,11 +73,19 @@ def test_a_scene_of_which_nothing_is_coded_is_said_first_and_not_written(tmp_pat
     source, target = tmp_path / "lines.glb", tmp_path / "out.glb"
     source.write_bytes(built.bytes)
     assert main(["glb", str(source), "-o", str(target)]) == 11
-    assert capsys.readouterr().err.startswith(f"bsm: {source}: nothing was coded: points or lines; --force")
-    assert not target.exists() and main(["glb", str(source), "-f", "-o", str(target)]) == 0 and target.exists()
+    assert capsys.readouterr().err.startswith(
+        f"bsm: {source}: nothing was coded: points or lines; --force"
+    )
+    assert (
+        not target.exists()
+        and main(["glb", str(source), "-f", "-o", str(target)]) == 0
+        and target.exists()
+    )
     source.write_bytes(built.bytes[:-4])
     assert main(["glb", str(source), "-f", "-o", str(target)]) == 12
-    assert capsys.readouterr().err.splitlines()[-1].startswith(f"bsm: {source}: this GLB should have")
+    assert (
+        capsys.readouterr().err.splitlines()[-1].startswith(f"bsm: {source}: this GLB should have")
+    )
 
 
 def rewritten(built, options=FINE, **more):
@@ -81,7 +99,14 @@ def first(document):
 
 def test_extras_are_never_entered():
     """Whatever they hold, under keys that glTF has elsewhere."""
-    extras = {"attributes": {"hp": 4}, "input": 1, "indices": 2, "stream": 0, "bufferView": 1, "extensions": {"A": 3}}
+    extras = {
+        "attributes": {"hp": 4},
+        "input": 1,
+        "indices": 2,
+        "stream": 0,
+        "bufferView": 1,
+        "extensions": {"A": 3},
+    }
     built, _ = ring({"NORMAL": np.tile(np.eye(3, dtype=np.float32)[:1], (384, 1))})
     primitive = built.tree["meshes"][0]["primitives"][0]
     for place in (built.tree, built.tree["nodes"][0], primitive, built.tree["accessors"][0]):
@@ -110,7 +135,12 @@ def test_tables_of_an_extension_that_is_not_known_keep_their_numbers_and_bytes(c
     late = [built.view(bytes([k]) * 40) for k in range(5)]
     unused = built.array(np.arange(7, dtype=np.float32))
     properties = {"height": {"values": late[3], "stringOffsets": late[1], "arrayOffsets": early}}
-    table = {"class": "c", "count": 10, "properties": properties, "pointer": f"/accessors/{unused}/min"}
+    table = {
+        "class": "c",
+        "count": 10,
+        "properties": properties,
+        "pointer": f"/accessors/{unused}/min",
+    }
     built.tree["extensions"] = {"EXT_whatever": {"propertyTables": [table]}}
     built.tree["extensionsUsed"] = ["EXT_whatever"]
     before = Document(built.bytes)
@@ -133,9 +163,15 @@ def test_bytes_that_another_extension_may_name_stay():
 
 
 PLACES = {
-    "outline": lambda p, m: p.setdefault("extensions", {}).update(CESIUM_primitive_outline={"indices": 1}),
-    "edges": lambda p, m: p.setdefault("extensions", {}).update(EXT_mesh_primitive_edge_visibility={"visibility": 1}),
-    "manifold": lambda p, m: m.setdefault("extensions", {}).update(EXT_mesh_manifold={"mergeIndices": 1}),
+    "outline": lambda p, m: p.setdefault("extensions", {}).update(
+        CESIUM_primitive_outline={"indices": 1}
+    ),
+    "edges": lambda p, m: p.setdefault("extensions", {}).update(
+        EXT_mesh_primitive_edge_visibility={"visibility": 1}
+    ),
+    "manifold": lambda p, m: m.setdefault("extensions", {}).update(
+        EXT_mesh_manifold={"mergeIndices": 1}
+    ),
     "numbered features": lambda p, m: p.setdefault("extensions", {}).update(
         EXT_mesh_features={"featureIds": [{"featureCount": 384}]}
     ),
@@ -151,7 +187,10 @@ def test_primitives_whose_vertices_are_named_stay(put):
     before = Document(built.bytes)
     found, after = rewritten(built)
     assert found.coded == 0 and "may name vertices" in "".join(found.unchanged)
-    assert after.tree["meshes"] == before.tree["meshes"] and EXTENSION not in after.tree["extensionsUsed"]
+    assert (
+        after.tree["meshes"] == before.tree["meshes"]
+        and EXTENSION not in after.tree["extensionsUsed"]
+    )
     for number in range(2):
         np.testing.assert_array_equal(after.array(number), before.array(number))
 
@@ -159,14 +198,18 @@ def test_primitives_whose_vertices_are_named_stay(put):
 def test_a_primitive_with_bytes_that_are_not_known_stays_and_others_are_compressed():
     built, _ = ring()
     other = copy.deepcopy(built.tree["meshes"][0])
-    other["primitives"][0]["attributes"]["POSITION"] = built.array(torus(24, 16).positions.astype(np.float32))
+    other["primitives"][0]["attributes"]["POSITION"] = built.array(
+        torus(24, 16).positions.astype(np.float32)
+    )
     built.tree["meshes"].append(other)
     how = {"EXT_packs": {"buffer": 0, "byteOffset": 4}}
     built.tree["bufferViews"][0]["extensions"] = how
     built.tree["extensionsUsed"] = ["EXT_packs"]
     found, after = rewritten(built)
     assert found.coded == 1 and found.unchanged == {"EXT_packs may hold other bytes": 1}
-    view = after.tree["bufferViews"][after.item("accessors", first(after)["attributes"]["POSITION"])["bufferView"]]
+    view = after.tree["bufferViews"][
+        after.item("accessors", first(after)["attributes"]["POSITION"])["bufferView"]
+    ]
     assert view["extensions"] == how and after.buffer(0)[: len(built.data)] == built.data
 
 
@@ -174,7 +217,14 @@ def test_weights_of_all_sets_have_one_sum():
     random = np.random.default_rng(0).random((384, 8)).astype(np.float32)
     weights = random / random.sum(axis=1, keepdims=True)
     joints = np.tile(np.arange(4, dtype=np.uint8), (384, 1))
-    built, _ = ring({"JOINTS_0": joints, "JOINTS_1": joints, "WEIGHTS_0": weights[:, :4], "WEIGHTS_1": weights[:, 4:]})
+    built, _ = ring(
+        {
+            "JOINTS_0": joints,
+            "JOINTS_1": joints,
+            "WEIGHTS_0": weights[:, :4],
+            "WEIGHTS_1": weights[:, 4:],
+        }
+    )
     found, after = rewritten(built)
     named = first(after)["attributes"]
     total = sum(after.numbers(named[f"WEIGHTS_{k}"]).sum(axis=1) for k in range(2))
@@ -191,14 +241,20 @@ def test_weights_of_all_sets_have_one_sum():
 @pytest.mark.parametrize("how", ["targets", "sparse targets", "skin", "nothing"])
 def test_faces_that_something_opens_are_kept(how):
     """A seam of eyelids: two rows of vertices at one place."""
-    across, up = np.meshgrid(np.linspace(0, 1, 30), np.repeat(np.linspace(0, 1, 12), [1] * 5 + [2] + [1] * 6))
-    points = np.column_stack([across.ravel(), up.ravel(), np.sin(5 * across.ravel())]).astype(np.float32)
+    across, up = np.meshgrid(
+        np.linspace(0, 1, 30), np.repeat(np.linspace(0, 1, 12), [1] * 5 + [2] + [1] * 6)
+    )
+    points = np.column_stack([across.ravel(), up.ravel(), np.sin(5 * across.ravel())]).astype(
+        np.float32
+    )
     number = np.arange(len(points)).reshape(across.shape)
     a, b, c, d = number[:-1, :-1], number[:-1, 1:], number[1:, 1:], number[1:, :-1]
-    faces = np.concatenate([np.stack([a, b, c], -1).reshape(-1, 3), np.stack([a, c, d], -1).reshape(-1, 3)])
-    moved = np.where((np.arange(len(points)) // 30 > 5)[:, None], np.float32(0.1), np.float32(0)) * np.ones(
-        (1, 3), "f4"
+    faces = np.concatenate(
+        [np.stack([a, b, c], -1).reshape(-1, 3), np.stack([a, c, d], -1).reshape(-1, 3)]
     )
+    moved = np.where(
+        (np.arange(len(points)) // 30 > 5)[:, None], np.float32(0.1), np.float32(0)
+    ) * np.ones((1, 3), "f4")
     built = Built()
     given = {"POSITION": built.array(points)}
     if how == "skin":
@@ -216,7 +272,9 @@ def test_faces_that_something_opens_are_kept(how):
             "indices": {"bufferView": built.view(places.tobytes()), "componentType": 5123},
             "values": {"bufferView": built.view(moved[places].tobytes())},
         }
-        built.tree["accessors"].append({"componentType": 5126, "type": "VEC3", "count": len(points), "sparse": sparse})
+        built.tree["accessors"].append(
+            {"componentType": 5126, "type": "VEC3", "count": len(points), "sparse": sparse}
+        )
         primitive["targets"] = [{"POSITION": len(built.tree["accessors"]) - 1}]
     built.nodes({"mesh": built.mesh(primitive)})
     found, after = rewritten(built)
@@ -228,7 +286,10 @@ def test_faces_that_something_opens_are_kept(how):
         target = after.numbers(first(after)["targets"][0]["POSITION"])
         corners = after.numbers(first(after)["indices"])[:, 0].astype(int).reshape(-1, 3)
         points = after.numbers(first(after)["attributes"]["POSITION"]) + target
-        sides = np.cross(points[corners[:, 1]] - points[corners[:, 0]], points[corners[:, 2]] - points[corners[:, 0]])
+        sides = np.cross(
+            points[corners[:, 1]] - points[corners[:, 0]],
+            points[corners[:, 2]] - points[corners[:, 0]],
+        )
         assert np.linalg.norm(sides, axis=1).min() > 1e-5
 
 
@@ -251,7 +312,9 @@ def test_identifiers_are_exact(ids, preset):
     }
     found, after = rewritten(built, {"preset": preset})
     assert found.coded == 1 and not found.unchanged
-    places, values = (after.numbers(first(after)["attributes"][name]) for name in ("POSITION", "_FEATURE_ID_0"))
+    places, values = (
+        after.numbers(first(after)["attributes"][name]) for name in ("POSITION", "_FEATURE_ID_0")
+    )
     nearest = np.linalg.norm(places[:, None] - shape.positions[None], axis=2).argmin(axis=1)
     np.testing.assert_array_equal(values, ids[nearest])
 
@@ -263,7 +326,9 @@ def test_texture_coordinates_are_bound_in_texels(extent, side, kind):
     image.new("L", (side, 8)).save(file := io.BytesIO(), kind)
     random = np.random.default_rng(1).random((384, 2)).astype(np.float32) * np.float32(extent)
     built, _ = ring({"TEXCOORD_0": random}, {"material": 0})
-    built.tree["images"] = [{"bufferView": built.view(file.getvalue()), "mimeType": f"image/{kind.lower()}"}]
+    built.tree["images"] = [
+        {"bufferView": built.view(file.getvalue()), "mimeType": f"image/{kind.lower()}"}
+    ]
     built.tree["textures"] = [{"source": 0}]
     built.tree["materials"] = [{"normalTexture": {"index": 0}}]
     _, after = rewritten(built)
@@ -274,10 +339,19 @@ def test_texture_coordinates_are_bound_in_texels(extent, side, kind):
 
 def test_qualities_are_those_that_are_asked_for(tmp_path, capsys):
     random = np.random.default_rng(1).random((384, 2)).astype(np.float32)
-    built, _ = ring({"TEXCOORD_0": random, "_HEIGHT": random[:, :1], "COLOR_0": np.hstack([random, random])})
+    built, _ = ring(
+        {"TEXCOORD_0": random, "_HEIGHT": random[:, :1], "COLOR_0": np.hstack([random, random])}
+    )
     (tmp_path / "a.glb").write_bytes(built.bytes)
     command = ["glb", str(tmp_path / "a.glb"), "-f", "-o", str(tmp_path / "b.glb")]
-    given = ["--attribute", "TEXCOORD_0=exact", "--attribute", "_HEIGHT=0.1", "--attribute", "COLOR_0=none"]
+    given = [
+        "--attribute",
+        "TEXCOORD_0=exact",
+        "--attribute",
+        "_HEIGHT=0.1",
+        "--attribute",
+        "COLOR_0=none",
+    ]
     assert main([*command, *given]) == 0
     after = read_document(str(tmp_path / "b.glb"))
     named = first(after)["attributes"]
@@ -318,7 +392,10 @@ def test_normals_are_left_out_where_all_are_within_a_degree(tilt, asked, preset,
     shape = torus(48, 32)
     normals = normals_of(shape, tilt)
     built = Built()
-    attributes = {"POSITION": built.array(shape.positions.astype(np.float32)), "NORMAL": built.array(normals)}
+    attributes = {
+        "POSITION": built.array(shape.positions.astype(np.float32)),
+        "NORMAL": built.array(normals),
+    }
     faces = built.array(shape.faces.astype(np.uint16).reshape(-1))
     built.nodes({"mesh": built.mesh({"attributes": attributes, "indices": faces})})
     found, after = rewritten(built, {"preset": preset, "attributes": asked})
@@ -334,11 +411,22 @@ def test_normals_are_left_out_where_all_are_within_a_degree(tilt, asked, preset,
 
 def test_lossless_scenes_have_all_numbers(tmp_path):
     random = np.random.default_rng(1).random((384, 3)).astype(np.float32)
-    built, _ = ring({"NORMAL": random, "TEXCOORD_0": random[:, :2], "TANGENT": np.hstack([random, random[:, :1]])})
+    built, _ = ring(
+        {
+            "NORMAL": random,
+            "TEXCOORD_0": random[:, :2],
+            "TANGENT": np.hstack([random, random[:, :1]]),
+        }
+    )
     before = Document(built.bytes)
     _, after = rewritten(built, {"preset": "lossless"})
     tables = [
-        np.hstack([d.numbers(first(d)["attributes"][n]) for n in ("POSITION", "NORMAL", "TEXCOORD_0", "TANGENT")])
+        np.hstack(
+            [
+                d.numbers(first(d)["attributes"][n])
+                for n in ("POSITION", "NORMAL", "TEXCOORD_0", "TANGENT")
+            ]
+        )
         for d in (before, after)
     ]
     assert sorted(map(tuple, tables[0].tolist())) == sorted(map(tuple, tables[1].tolist()))
@@ -366,7 +454,8 @@ def test_meshes_share_a_grid():
         found, after = rewritten(built, one_grid=one_grid)
         assert found.coded == 2
         tables = [
-            after.numbers(mesh["primitives"][0]["attributes"]["POSITION"]) + np.array(node["translation"])
+            after.numbers(mesh["primitives"][0]["attributes"]["POSITION"])
+            + np.array(node["translation"])
             for mesh, node in zip(after.tree["meshes"], after.tree["nodes"], strict=True)
         ]
         apart = np.linalg.norm(tables[0][:, None] - tables[1][None], axis=2).min(axis=1)
@@ -380,12 +469,21 @@ def test_a_far_component_is_named(tmp_path, capsys):
     points = np.vstack([near.positions, far.positions + np.array([1e4, 0, 0])]).astype(np.float32)
     faces = np.vstack([near.faces, far.faces + len(near.positions)]).astype(np.uint16)
     built.nodes(
-        {"mesh": built.mesh({"attributes": {"POSITION": built.array(points)}, "indices": built.array(faces.ravel())})}
+        {
+            "mesh": built.mesh(
+                {
+                    "attributes": {"POSITION": built.array(points)},
+                    "indices": built.array(faces.ravel()),
+                }
+            )
+        }
     )
     (tmp_path / "a.glb").write_bytes(built.bytes)
     assert main(["glb", str(tmp_path / "a.glb"), "-o", str(tmp_path / "b.glb")]) == 0
     errors = capsys.readouterr().err
-    assert "% of the diagonal of its component" in errors and "small components are coarse" in errors
+    assert (
+        "% of the diagonal of its component" in errors and "small components are coarse" in errors
+    )
 
 
 @pytest.mark.parametrize(
@@ -400,7 +498,11 @@ def test_a_far_component_is_named(tmp_path, capsys):
 )
 def test_types_of_images_are_told_by_their_bytes(data, kind, tmp_path):
     built, _ = ring()
-    built.tree["images"] = [{"uri": "image.bin"}, {"uri": "https://example.org/a.png"}, {"uri": "not%20there.png"}]
+    built.tree["images"] = [
+        {"uri": "image.bin"},
+        {"uri": "https://example.org/a.png"},
+        {"uri": "not%20there.png"},
+    ]
     (tmp_path / "image.bin").write_bytes(data)
     (tmp_path / "a.glb").write_bytes(built.bytes)
     assert main(["glb", str(tmp_path / "a.glb"), "-o", str(tmp_path / "b.glb")]) == 0
@@ -413,7 +515,13 @@ def test_types_of_images_are_told_by_their_bytes(data, kind, tmp_path):
 def test_zeros_without_bytes_are_not_counted_as_saved():
     built = Built()
     built.tree["accessors"] = [{"componentType": 5126, "type": "VEC3", "count": 60_000}]
-    built.nodes({"mesh": built.mesh({"attributes": {"POSITION": 0}, "indices": built.array(np.arange(3, dtype="u2"))})})
+    built.nodes(
+        {
+            "mesh": built.mesh(
+                {"attributes": {"POSITION": 0}, "indices": built.array(np.arange(3, dtype="u2"))}
+            )
+        }
+    )
     assert len(compress(Document(built.bytes), FINE).data) <= len(restore(Document(built.bytes)))
 
 
@@ -441,10 +549,15 @@ def test_threads_give_the_same_scene(tmp_path):
     for number in range(3):
         built.tree["meshes"].append(copy.deepcopy(built.tree["meshes"][0]))
         attributes = built.tree["meshes"][-1]["primitives"][0]["attributes"]
-        attributes["POSITION"] = built.array(torus(24, 16).positions.astype(np.float32) * (number + 2))
+        attributes["POSITION"] = built.array(
+            torus(24, 16).positions.astype(np.float32) * (number + 2)
+        )
     (tmp_path / "a.glb").write_bytes(built.bytes)
     for jobs in ("1", "2"):
-        assert main(["glb", str(tmp_path / "a.glb"), "-j", jobs, "-o", str(tmp_path / f"{jobs}.glb")]) == 0
+        assert (
+            main(["glb", str(tmp_path / "a.glb"), "-j", jobs, "-o", str(tmp_path / f"{jobs}.glb")])
+            == 0
+        )
     assert (tmp_path / "1.glb").read_bytes() == (tmp_path / "2.glb").read_bytes()
 
 
@@ -461,7 +574,9 @@ def test_a_scene_is_restored(tmp_path):
     assert coded_of(coded) and not after.compressed and len(after.tree["buffers"]) == 1
     assert not any("extensions" in view for view in after.tree["bufferViews"])
     for name, index in first(coded)["attributes"].items():
-        np.testing.assert_array_equal(after.numbers(first(after)["attributes"][name]), coded.numbers(index))
+        np.testing.assert_array_equal(
+            after.numbers(first(after)["attributes"][name]), coded.numbers(index)
+        )
     assert after.view(built.tree["extensions"]["EXT_whatever"]["view"]) == b"keep"
     assert main(["decode", small, "-f", "-o", str(tmp_path / "d.ply")]) == 0
     assert len(bsm.load(tmp_path / "d.ply").faces) == 768
@@ -478,7 +593,12 @@ def test_a_scene_is_restored(tmp_path):
 
 def test_scenes_are_compared_as_one_mesh(tmp_path, capsys):
     """Two primitives that share their vertices are one stream, whose faces have another order."""
-    built, _ = ring({"_ID": np.arange(384, dtype=np.uint16)[:, None], "COLOR_0": np.full((384, 4), 0.5, np.float32)})
+    built, _ = ring(
+        {
+            "_ID": np.arange(384, dtype=np.uint16)[:, None],
+            "COLOR_0": np.full((384, 4), 0.5, np.float32),
+        }
+    )
     faces = torus(24, 16).faces.astype(np.uint16)
     given = first(built)
     built.tree["meshes"][0]["primitives"] = [
@@ -492,7 +612,10 @@ def test_scenes_are_compared_as_one_mesh(tmp_path, capsys):
     assert main(["compare", original, small, "--json"]) == 0
     found = json.loads(capsys.readouterr().out)
     assert 0 < found["max_error_relative"] < 1e-4
-    assert found["attributes"]["ID"]["max_error"] == 0 and found["attributes"]["color"]["max_error"] < 0.003
+    assert (
+        found["attributes"]["ID"]["max_error"] == 0
+        and found["attributes"]["color"]["max_error"] < 0.003
+    )
     assert main(["info", small]) == 0
     assert "scene of 3 primitives, 1 stream\n" in capsys.readouterr().out
 
@@ -505,7 +628,9 @@ def test_references_that_lead_nowhere_and_numbers_that_are_none_are_errors():
     ):
         built, _ = ring()
         spoil(built.tree)
-        text = json.dumps(built.tree | {"buffers": [{"byteLength": len(built.data)}]}).replace("Infinity", "1e999")
+        text = json.dumps(built.tree | {"buffers": [{"byteLength": len(built.data)}]}).replace(
+            "Infinity", "1e999"
+        )
         data = glb(json.loads(text), built.data) if "1e999" not in text else None
         document = Document(data or text.encode())
         document._binary = built.data
@@ -522,7 +647,9 @@ def test_no_output_has_an_error_that_its_input_had_not(tmp_path):
         "plain": ring(),
         "dressed": ring({"NORMAL": up, "TEXCOORD_0": up[:, :2].copy(), "COLOR_0": color}),
         "ids": ring({"_FEATURE_ID_0": IDS["bytes"].astype(np.float32)}),
-        "targets": ring({"NORMAL": up}, targets=[{"POSITION": up, "NORMAL": up}, {"POSITION": up, "NORMAL": up}]),
+        "targets": ring(
+            {"NORMAL": up}, targets=[{"POSITION": up, "NORMAL": up}, {"POSITION": up, "NORMAL": up}]
+        ),
         "skin": ring({"JOINTS_0": np.zeros((384, 4), np.uint8), "WEIGHTS_0": weights}),
     }
     scenes["skin"][0].tree["skins"] = [{"joints": [1]}]
@@ -531,7 +658,11 @@ def test_no_output_has_an_error_that_its_input_had_not(tmp_path):
     for name, (built, _) in scenes.items():
         before.append(tmp_path / f"{name}.glb")
         before[-1].write_bytes(built.bytes)
-        for kind, more in {"grid": [], "lossless": ["--preset", "lossless"], "fallback": ["--fallback"]}.items():
+        for kind, more in {
+            "grid": [],
+            "lossless": ["--preset", "lossless"],
+            "fallback": ["--fallback"],
+        }.items():
             after.append(tmp_path / f"{name}.{kind}.glb")
             assert main(["glb", str(before[-1]), "-o", str(after[-1]), *more]) == 0
         (tmp_path / f"{name}.plain.glb").write_bytes(restore(read_document(str(after[-3]))))

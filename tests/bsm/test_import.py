@@ -16,7 +16,9 @@ from tests.bsm.program import ROOT, python
 
 
 def test_it_loads_nothing_that_takes_time():
-    printed = python("-c", "import sys, bsm, bsm.cli; dir(bsm); print(*sys.modules)", text=True).stdout
+    printed = python(
+        "-c", "import sys, bsm, bsm.cli; dir(bsm); print(*sys.modules)", text=True
+    ).stdout
     loaded = set(printed.split())
     assert "bsm" in loaded
     assert not {"numpy", "scipy", "codec", "bsm.codec.denoise", "bsm.bitstream.container"} & loaded
@@ -32,7 +34,9 @@ def test_nothing_of_a_checkout_but_the_product_is_of_it(name):
 def test_a_command_loads_nothing_that_speaks_http(tmp_path):
     stream = ROOT / "spec" / "vectors" / "1.0" / "good-sequence-learnt.bsm"
     words = ["decode", "-q", str(stream), "-o", str(tmp_path / "decoded.npz")]
-    program = f"import sys; from bsm.cli import main; code = main({words}); print(code, *sys.modules)"
+    program = (
+        f"import sys; from bsm.cli import main; code = main({words}); print(code, *sys.modules)"
+    )
     code, *loaded = python("-c", program, text=True).stdout.split()
     assert code == "0" and "bsm.codec.decoding" in loaded
     assert not {"urllib.request", "http.client", "ssl", "scipy"} & set(loaded)
@@ -62,15 +66,21 @@ def test_type_checkers_see_the_same_names():
 
 
 def test_an_error_names_the_extra_and_no_path():
-    with pytest.raises(DependencyError, match=r"^x is missing; run: pip install 'bsm-codec\[eval\]'$"):
+    with pytest.raises(
+        DependencyError, match=r"^x is missing; run: pip install 'bsm-codec\[eval\]'$"
+    ):
         imported("no_such_module", "x is missing", "eval")
 
 
 @pytest.mark.slow
 def test_the_command_is_content_with_the_package_that_is_installed():
-    if subprocess.run([sys.executable, "-m", "pip", "--version"], capture_output=True, check=False).returncode:
+    if subprocess.run(
+        [sys.executable, "-m", "pip", "--version"], capture_output=True, check=False
+    ).returncode:
         pytest.skip("needs pip")
     words = how_to_install("progress").replace("'", "").split()[1:]
     command = [sys.executable, "-m", "pip", *words, "--no-index", "--dry-run"]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
-    assert done.returncode == 0 and "already satisfied: bsm-codec" in done.stdout, done.stdout + done.stderr
+    assert done.returncode == 0 and "already satisfied: bsm-codec" in done.stdout, (
+        done.stdout + done.stderr
+    )

@@ -65,10 +65,15 @@ def test_trimesh_knows_streams_once_both_are_imported(names):
 def test_trimesh_loads_a_stream(trimesh, tmp_path):
     mesh = painted()
     bsm.save(mesh, tmp_path / "a.bsm", **EXACT)
-    for loaded in (trimesh.load_mesh(tmp_path / "a.bsm"), trimesh.load(str(tmp_path / "a.bsm"), force="mesh")):
+    for loaded in (
+        trimesh.load_mesh(tmp_path / "a.bsm"),
+        trimesh.load(str(tmp_path / "a.bsm"), force="mesh"),
+    ):
         assert isinstance(loaded, trimesh.Trimesh)
         assert loaded.triangles == pytest.approx(mesh.positions[mesh.faces], abs=1e-3)
-        assert np.array_equal(loaded.visual.uv[loaded.faces], at_corners(mesh, attribute(mesh, "texcoord")))
+        assert np.array_equal(
+            loaded.visual.uv[loaded.faces], at_corners(mesh, attribute(mesh, "texcoord"))
+        )
         assert loaded.visual.material.name == "skin"
         assert loaded.visual.material.baseColorTexture.getpixel((0, 0)) == (200, 10, 20)
         assert np.array_equal(loaded.face_attributes["label"], np.arange(len(mesh.faces)) % 7)
@@ -86,7 +91,9 @@ def test_trimesh_exports_a_stream(trimesh, tmp_path):
     again = bsm.load(tmp_path / "b.bsm")
     assert again.positions[again.faces] == pytest.approx(mesh.positions[mesh.faces], abs=1e-3)
     for name in ("texcoord", "height", "label"):
-        assert np.array_equal(at_corners(again, attribute(again, name)), at_corners(mesh, attribute(mesh, name)))
+        assert np.array_equal(
+            at_corners(again, attribute(again, name)), at_corners(mesh, attribute(mesh, name))
+        )
     assert again.metadata["image.0.data"] == png()
     assert (again.metadata["unit"], again.metadata["name"]) == ("mm", "ring")
 
@@ -98,9 +105,15 @@ def test_colors_of_trimesh(trimesh, domain):
     colors = np.random.default_rng(1).integers(0, 256, (size, 4), np.uint8)
     sphere.visual = trimesh.visual.ColorVisuals(sphere, **{f"{domain}_colors": colors})
     ours = bsm.trimesh.from_trimesh(sphere)
-    assert np.array_equal(attribute(ours, "color").values, colors) and attribute(ours, "color").domain == domain
+    assert (
+        np.array_equal(attribute(ours, "color").values, colors)
+        and attribute(ours, "color").domain == domain
+    )
     back = bsm.trimesh.to_trimesh(bsm.decode(bsm.encode(sphere, **EXACT)))
-    assert np.array_equal(getattr(back.visual, f"{domain}_colors"), colors) and back.visual.kind == domain
+    assert (
+        np.array_equal(getattr(back.visual, f"{domain}_colors"), colors)
+        and back.visual.kind == domain
+    )
 
 
 def test_several_materials_of_trimesh(trimesh):
@@ -109,7 +122,9 @@ def test_several_materials_of_trimesh(trimesh):
     assert [material.name for material in loaded.visual.material.materials] == ["red", "painted"]
     again = bsm.trimesh.from_trimesh(loaded)
     assert np.array_equal(attribute(again, "material").values, attribute(mesh, "material").values)
-    assert again.metadata["material.1.name"] == "painted" and again.metadata["image.0.data"] == png()
+    assert (
+        again.metadata["material.1.name"] == "painted" and again.metadata["image.0.data"] == png()
+    )
 
 
 def test_a_mesh_of_parts_is_a_scene_of_trimesh(trimesh):
@@ -123,10 +138,9 @@ def test_a_mesh_of_parts_is_a_scene_of_trimesh(trimesh):
     assert ring.visual.material.baseColorTexture is not None
     assert not hasattr(box.visual, "material") or box.visual.material.baseColorTexture is None
     np.testing.assert_allclose(ring.bounds, first.bounds, atol=1e-3)
-    assert np.bincount(attribute(bsm.trimesh.from_trimesh(scene), "part").values[:, 0]).tolist() == [
-        len(first.faces),
-        len(second.faces),
-    ]
+    assert np.bincount(
+        attribute(bsm.trimesh.from_trimesh(scene), "part").values[:, 0]
+    ).tolist() == [len(first.faces), len(second.faces)]
     alone = bsm.trimesh.to_scene(trimesh.creation.box())
     assert len(alone.geometry) == 1
 
@@ -141,19 +155,32 @@ def test_parts_without_a_material_get_none(trimesh, tmp_path):
         images = {name: part.visual.material.baseColorTexture for name, part in shown.items()}
         assert images["ring"] is not None and images["box"] is None and images["other"] is None
         found = bsm.load(tmp_path / "b.glb")
-        kinds = [sorted(name.split(".")[::2] for name in mesh.metadata if name[0] in "mi") for mesh in (found, ours)]
+        kinds = [
+            sorted(name.split(".")[::2] for name in mesh.metadata if name[0] in "mi")
+            for mesh in (found, ours)
+        ]
         assert kinds[0] == kinds[1]
-        skin = next(name.split(".")[1] for name in found.metadata if name.endswith("baseColorTexture"))
-        numbers = attribute(found, "material").values[:, 0]
-        assert (numbers == int(skin)).sum() == len(first.faces) and len(numbers) == len(first.faces) + 2 * len(
-            second.faces
+        skin = next(
+            name.split(".")[1] for name in found.metadata if name.endswith("baseColorTexture")
         )
+        numbers = attribute(found, "material").values[:, 0]
+        assert (numbers == int(skin)).sum() == len(first.faces) and len(numbers) == len(
+            first.faces
+        ) + 2 * len(second.faces)
     whole = bsm.trimesh.to_trimesh(ours).visual
-    assert len(whole.material.materials) == 2 and np.bincount(whole.face_materials)[1] == 2 * len(second.faces)
+    assert len(whole.material.materials) == 2 and np.bincount(whole.face_materials)[1] == 2 * len(
+        second.faces
+    )
 
 
 def test_hostile_images_and_materials(trimesh):
-    mesh = painted(**{"image.0.data": b"\x89PNG\r\n\x1a\n" + bytes(20), "material.0.Kd": "a b c", "material.5.d": "x"})
+    mesh = painted(
+        **{
+            "image.0.data": b"\x89PNG\r\n\x1a\n" + bytes(20),
+            "material.0.Kd": "a b c",
+            "material.5.d": "x",
+        }
+    )
     loaded = bsm.trimesh.to_trimesh(mesh)
     assert loaded.visual.uv is not None
 
@@ -233,9 +260,15 @@ def test_open3d():
     open3d = pytest.importorskip("open3d", exc_type=ImportError)
     theirs = open3d.geometry.TriangleMesh.create_sphere(resolution=6)
     theirs.compute_vertex_normals()
-    theirs.vertex_colors = open3d.utility.Vector3dVector(np.full((len(theirs.vertices), 3), 51 / 255))
-    theirs.triangle_uvs = open3d.utility.Vector2dVector(np.random.default_rng(0).random((3 * len(theirs.triangles), 2)))
-    theirs.triangle_material_ids = open3d.utility.IntVector([i % 3 for i in range(len(theirs.triangles))])
+    theirs.vertex_colors = open3d.utility.Vector3dVector(
+        np.full((len(theirs.vertices), 3), 51 / 255)
+    )
+    theirs.triangle_uvs = open3d.utility.Vector2dVector(
+        np.random.default_rng(0).random((3 * len(theirs.triangles), 2))
+    )
+    theirs.triangle_material_ids = open3d.utility.IntVector(
+        [i % 3 for i in range(len(theirs.triangles))]
+    )
     ours = as_mesh(theirs)
     assert [(a.name, a.domain) for a in ours.attributes] == [
         ("normal", "vertex"),
@@ -250,13 +283,20 @@ def test_open3d():
 
 def test_meshio_data():
     meshio = pytest.importorskip("meshio")
-    cells = [("line", [[0, 1]]), ("quad", [[0, 1, 2, 3]]), ("triangle", np.array([[0, 1, 2]], np.uint64))]
-    theirs = meshio.Mesh(SQUARE, cells, {"height": [1.0, 2, 3, 4]}, {"kind": [[1], [2], [3]]}, info=["by hand"])
+    cells = [
+        ("line", [[0, 1]]),
+        ("quad", [[0, 1, 2, 3]]),
+        ("triangle", np.array([[0, 1, 2]], np.uint64)),
+    ]
+    theirs = meshio.Mesh(
+        SQUARE, cells, {"height": [1.0, 2, 3, 4]}, {"kind": [[1], [2], [3]]}, info=["by hand"]
+    )
     with pytest.warns(bsm.BsmWarning, match=r"cells of the type line \(1\), info \(by hand\)"):
         ours = as_mesh(theirs)
     assert len(ours.faces) == 3
     ragged = meshio.Mesh(SQUARE, [("polygon", [[0, 1, 2, 3]]), ("polygon", [[0, 1, 2]])])
-    assert len(as_mesh(ragged).faces) == 3 and bsm.look(ragged, ragged).distance == 0.0  # it has a `read`, too
+    # It has a `read`, too.
+    assert len(as_mesh(ragged).faces) == 3 and bsm.look(ragged, ragged).distance == 0.0
     with pytest.raises(bsm.MeshError, match="cells of the type tetra20"):
         as_mesh(meshio.Mesh(SQUARE, [("tetra20", [[0] * 20])]))
 
@@ -270,7 +310,9 @@ def test_where_a_library_is_missing_the_way_out_is_reported(library, monkeypatch
 
 
 def same(mesh, other):
-    return np.array_equal(mesh.positions, other.positions) and np.array_equal(mesh.faces, other.faces)
+    return np.array_equal(mesh.positions, other.positions) and np.array_equal(
+        mesh.faces, other.faces
+    )
 
 
 def test_our_own_are_taken_as_they_are(tmp_path):
@@ -284,7 +326,9 @@ def test_our_own_are_taken_as_they_are(tmp_path):
 def test_trimesh(trimesh):
     sphere = trimesh.creation.icosphere(subdivisions=1)
     mesh = as_mesh(sphere)
-    assert np.array_equal(mesh.positions, sphere.vertices) and np.array_equal(mesh.faces, sphere.faces)
+    assert np.array_equal(mesh.positions, sphere.vertices) and np.array_equal(
+        mesh.faces, sphere.faces
+    )
     scene = trimesh.Scene([sphere, sphere])
     scene.add_geometry(sphere, transform=trimesh.transformations.scale_matrix(-2, [0, 0, 0]))
     joined = as_mesh(scene)
@@ -292,20 +336,27 @@ def test_trimesh(trimesh):
     assert np.array_equal(joined.positions[-len(sphere.vertices) :], -2 * sphere.vertices)
     corners = joined.positions[joined.faces].reshape(3, -1, 3, 3)
     volumes = np.linalg.det(corners).sum(axis=1) / 6
-    assert volumes == pytest.approx([sphere.volume, sphere.volume, 8 * sphere.volume]), "mirrored, yet not inside out"
+    assert volumes == pytest.approx([sphere.volume, sphere.volume, 8 * sphere.volume]), (
+        "mirrored, yet not inside out"
+    )
 
 
 @pytest.mark.parametrize("points", ["vertices", "points", "positions"])
 @pytest.mark.parametrize("faces", ["faces", "triangles"])
 def test_any_object_with_points_and_faces(points, faces):
     mesh = tetrahedron()
-    found = as_mesh(SimpleNamespace(**{points: mesh.positions.tolist(), faces: mesh.faces.tolist()}))
+    found = as_mesh(
+        SimpleNamespace(**{points: mesh.positions.tolist(), faces: mesh.faces.tolist()})
+    )
     assert same(found, mesh)
 
 
 def test_pairs_of_arrays():
     mesh = tetrahedron()
-    for pair in ((mesh.positions, mesh.faces), [mesh.positions.tolist(), mesh.faces.astype(np.uint64)]):
+    for pair in (
+        (mesh.positions, mesh.faces),
+        [mesh.positions.tolist(), mesh.faces.astype(np.uint64)],
+    ):
         assert same(as_mesh(pair), mesh)
 
 
@@ -313,13 +364,18 @@ def test_pairs_of_arrays():
 @given(st.lists(st.integers(3, 9), min_size=1, max_size=40), st.integers(0, 1000))
 def test_flat_faces_are_polygons_one_behind_the_other(sizes, seed):
     random = np.random.default_rng(seed)
-    points, polygons = random.normal(size=(31, 3)), [random.integers(0, 31, size).tolist() for size in sizes]
+    points, polygons = (
+        random.normal(size=(31, 3)),
+        [random.integers(0, 31, size).tolist() for size in sizes],
+    )
     flat = np.concatenate([[len(polygon), *polygon] for polygon in polygons])
     expected = as_mesh((points, [*polygons, [0, 1, 2], [0, 1, 2, 3]])).faces[:-3]
     assert np.array_equal(as_mesh((points, flat)).faces, expected)
 
 
-@pytest.mark.parametrize("flat", [[3, 0, 1], [3, 0, 1, 2, 3], [-1, 0, 1, 2], [3, 0, 1, 2, -3, 0, 1], [3, 0, 1, 9]])
+@pytest.mark.parametrize(
+    "flat", [[3, 0, 1], [3, 0, 1, 2, 3], [-1, 0, 1, 2], [3, 0, 1, 2, -3, 0, 1], [3, 0, 1, 9]]
+)
 def test_flat_faces_that_do_not_work_out(flat):
     with pytest.raises(MeshError):
         as_mesh((SQUARE, flat))
@@ -342,13 +398,17 @@ def test_what_is_no_mesh_is_named(mesh, words):
         as_mesh(mesh)
 
 
-@pytest.mark.parametrize("faces", [[[0, 1, 2.5]], [[0, 1, 2, 3.5]], [["a", "b", "c"]], [[0, 1]], [], [[0, 1], [0]]])
+@pytest.mark.parametrize(
+    "faces", [[[0, 1, 2.5]], [[0, 1, 2, 3.5]], [["a", "b", "c"]], [[0, 1]], [], [[0, 1], [0]]]
+)
 def test_faces_that_are_none(faces):
     with pytest.raises(MeshError):
         as_mesh((SQUARE, faces))
 
 
-@pytest.mark.parametrize("positions", [[[0, 0], [1, 0], [1, 1], [0, 1]], [1, 2, 3], [["x", 0, 0]] * 4])
+@pytest.mark.parametrize(
+    "positions", [[[0, 0], [1, 0], [1, 1], [0, 1]], [1, 2, 3], [["x", 0, 0]] * 4]
+)
 def test_positions_that_are_none(positions):
     for faces in ([[0, 1, 2]], [[0, 1, 2, 3]]):
         with pytest.raises(MeshError):
@@ -367,7 +427,9 @@ def test_openmesh_gives_and_takes_what_it_shows():
     back = from_openmesh(made)
     assert {a.name: a.domain for a in back.attributes} == {"texcoord": "vertex"}
     split = bsm.decode(bsm.encode(made, **EXACT))
-    assert np.array_equal(split.faces, back.faces) and np.allclose(split.positions, back.positions, atol=1e-4)
+    assert np.array_equal(split.faces, back.faces) and np.allclose(
+        split.positions, back.positions, atol=1e-4
+    )
     again = to_openmesh(back)
     for name in ("points", "fv_indices", "vertex_texcoords2D"):
         assert np.array_equal(getattr(again, name)(), getattr(made, name)())
@@ -378,7 +440,9 @@ def test_openmesh_gives_and_takes_what_it_shows():
 
 def test_corners_and_polygons_of_openmesh():
     openmesh = pytest.importorskip("openmesh")
-    polygons = openmesh.PolyMesh(np.vstack([SQUARE, [[2.0, 0, 0]]]), np.array([[0, 1, 2, 3], [1, 4, 2, -1]]))
+    polygons = openmesh.PolyMesh(
+        np.vstack([SQUARE, [[2.0, 0, 0]]]), np.array([[0, 1, 2, 3], [1, 4, 2, -1]])
+    )
     assert as_mesh(polygons).faces.tolist() == [[0, 1, 2], [0, 2, 3], [1, 4, 2]]
     mesh = openmesh.TriMesh(SQUARE, np.array([[0, 1, 2], [0, 2, 3]]))
     ends = mesh.halfedge_to_vertex_indices()

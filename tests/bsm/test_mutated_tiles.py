@@ -22,13 +22,25 @@ from tests.shapes import torus
 FOOT = 16  # bytes at the end of a file: the length of the index and a mark
 MOST_SECONDS = 20
 NAMES = st.sampled_from(["", "r", "r0", "00000.tiles", "../a", "\0", "x" * 5000])
-NUMBERS = st.integers(-(2**70), 2**70) | st.sampled_from([0, 1, 2**53, 2**63, 10**290, 10**400]) | st.floats()
-ODD = st.none() | st.booleans() | NAMES | NUMBERS | st.sampled_from([[], {}, [[]], [0, 0, 0], {"a": 1}])
+NUMBERS = (
+    st.integers(-(2**70), 2**70)
+    | st.sampled_from([0, 1, 2**53, 2**63, 10**290, 10**400])
+    | st.floats()
+)
+ODD = (
+    st.none()
+    | st.booleans()
+    | NAMES
+    | NUMBERS
+    | st.sampled_from([[], {}, [[]], [0, 0, 0], {"a": 1}])
+)
 
 
 def paths(tree, at=()):
     """The place of every value in a tree."""
-    for key in tree if isinstance(tree, dict) else range(len(tree)) if isinstance(tree, list) else ():
+    for key in (
+        tree if isinstance(tree, dict) else range(len(tree)) if isinstance(tree, list) else ()
+    ):
         yield (*at, key)
         yield from paths(tree[key], (*at, key))
 
@@ -65,7 +77,17 @@ def folder(tmp_path_factory):
     """Sound tiles in one shard."""
     path = tmp_path_factory.mktemp("mutated")
     bsm.save(torus(16, 12), path / "a.ply")
-    words = ["tile", path / "a.ply", "-o", path / "tiles", "--triangles", 100, "--grid-cell", 2.0**-10, "-q"]
+    words = [
+        "tile",
+        path / "a.ply",
+        "-o",
+        path / "tiles",
+        "--triangles",
+        100,
+        "--grid-cell",
+        2.0**-10,
+        "-q",
+    ]
     assert program([str(word) for word in words]) == 0
     return path / "tiles"
 
@@ -104,7 +126,11 @@ def use(folder, output):
         for region in (((-9, -9, -9), (9, 9, 9)), ((0, 0, 0), (0.1, 0.1, 0.1), 0.5)):
             with suppress(BsmError, OSError):
                 tiles.region(*region)
-    for words in (["-o", output / "a.ply"], ["--level", 0, "-o", output / "a.ply"], ["-o", output / "tileset.json"]):
+    for words in (
+        ["-o", output / "a.ply"],
+        ["--level", 0, "-o", output / "a.ply"],
+        ["-o", output / "tileset.json"],
+    ):
         program([str(word) for word in ("untile", folder, "-f", "-q", *words)])
     program(["info", str(folder)])
 
@@ -124,6 +150,8 @@ def test_mutated_tiles_end_in_results_or_errors_of_ours(folder, sound, tmp_path_
         shard["tiles"] = len(changed_index)
     written = json.dumps(data.draw(mutated(manifest, 3))).encode()
     (folder / name).write_bytes(shard_data)
-    (folder / "manifest.json").write_bytes(written[: data.draw(st.none() | st.integers(0, len(written)))])
+    (folder / "manifest.json").write_bytes(
+        written[: data.draw(st.none() | st.integers(0, len(written)))]
+    )
     with in_time(), np.errstate(all="raise", under="ignore"):
         use(folder, tmp_path_factory.mktemp("joined"))

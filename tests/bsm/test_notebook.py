@@ -19,13 +19,19 @@ def test_stream_is_shown_as_it_is():
     data = bsm.encode(MESH)
     widget = bsm.show(data, height=300)
     (layer,) = widget.content["layers"]
-    assert (base64.b64decode(layer["data"]), widget.height, widget.content["name"]) == (data, 300, "mesh")
+    assert (base64.b64decode(layer["data"]), widget.height, widget.content["name"]) == (
+        data,
+        300,
+        "mesh",
+    )
     assert "render" in widget._esm and str(widget._esm) == script(embedded)
 
 
 def test_mesh_is_encoded_and_compared_with_itself():
     widget = bsm.show((MESH.positions, MESH.faces), theta=4)
-    original, decoded = (bsm.decode(base64.b64decode(layer["data"])) for layer in widget.content["layers"][:2])
+    original, decoded = (
+        bsm.decode(base64.b64decode(layer["data"])) for layer in widget.content["layers"][:2]
+    )
     assert bsm.compare(MESH, decoded).theta_deg < 4
     assert widget.content["facts"]["angle"] == pytest.approx(bsm.compare(MESH, decoded).angle_deg)
     assert bsm.compare(MESH, original).max_error < 1e-6
@@ -65,7 +71,13 @@ def test_missing_anywidget_is_named(monkeypatch):
         bsm.show(bsm.encode(MESH))
 
 
-HOSTILE = ["<img src=x onerror=alert(1)>", "</script><script>1</script>", "\x1b[2J", "a\nb", "`${1}`"]
+HOSTILE = [
+    "<img src=x onerror=alert(1)>",
+    "</script><script>1</script>",
+    "\x1b[2J",
+    "a\nb",
+    "`${1}`",
+]
 
 
 @pytest.mark.parametrize("name", HOSTILE)
@@ -97,7 +109,13 @@ bsm.ground.console._PATIENCE = 0.0
 bsm.encode(knot(20000), theta=3)
 """
     notebook = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(cell)])
-    nbclient.NotebookClient(notebook, timeout=120, resources={"metadata": {"path": str(tmp_path)}}).execute()
-    text = "".join(output.get("text", "") for output in notebook.cells[0].outputs if output.get("name") == "stderr")
+    nbclient.NotebookClient(
+        notebook, timeout=120, resources={"metadata": {"path": str(tmp_path)}}
+    ).execute()
+    text = "".join(
+        output.get("text", "")
+        for output in notebook.cells[0].outputs
+        if output.get("name") == "stderr"
+    )
     assert "encoding: " in text and text.endswith("\r")
     assert not bsm.ground.console.in_notebook()

@@ -118,7 +118,10 @@ def test_a_link_in_the_place_of_an_unfinished_file_is_not_followed(tmp_path):
         (unfinished,) = (path for path in tmp_path.iterdir() if path.name not in ("a", "real"))
         unfinished.unlink()
         unfinished.symlink_to("real")
-    assert stat.S_IMODE((tmp_path / "real").stat().st_mode) == 0o600 and (tmp_path / "real").read_bytes() == b"old"
+    assert (
+        stat.S_IMODE((tmp_path / "real").stat().st_mode) == 0o600
+        and (tmp_path / "real").read_bytes() == b"old"
+    )
 
 
 def test_what_lies_in_the_place_of_a_dead_writers_file_is_not_waited_for(tmp_path):
@@ -254,9 +257,14 @@ def test_an_attempt_that_was_cut_off_may_be_made_again(tmp_path):
 def test_no_result_is_lost_for_a_note(closed, words, tmp_path):
     save(torus(12, 8), tmp_path / "a.ply")
     (tmp_path / "a.bsm").write_bytes(encode(tmp_path / "a.ply"))
-    ended = subprocess.run(f"{sys.executable} -m bsm {words} {closed}", shell=True, cwd=tmp_path, capture_output=True)
+    ended = subprocess.run(
+        f"{sys.executable} -m bsm {words} {closed}", shell=True, cwd=tmp_path, capture_output=True
+    )
     assert ended.returncode == 0
-    assert not words.startswith("encode") or (tmp_path / "b.bsm").read_bytes() == (tmp_path / "a.bsm").read_bytes()
+    assert (
+        not words.startswith("encode")
+        or (tmp_path / "b.bsm").read_bytes() == (tmp_path / "a.bsm").read_bytes()
+    )
     assert bool(ended.stdout) == ("json" in words or "info" in words)
 
 
@@ -269,7 +277,11 @@ def test_links_that_appear_after_planning_are_not_followed(command, there, tmp_p
     given = [tmp_path / f"{name}.{'bsm' if command == 'decode' else 'ply'}" for name in "ab"]
     for name in given:
         save(torus(12, 8), tmp_path / "mesh.ply")
-        name.write_bytes(encode(tmp_path / "mesh.ply") if command == "decode" else (tmp_path / "mesh.ply").read_bytes())
+        name.write_bytes(
+            encode(tmp_path / "mesh.ply")
+            if command == "decode"
+            else (tmp_path / "mesh.ply").read_bytes()
+        )
     suffix = ".bsm" if command == "encode" else ".ply"
     planned = plan_module.refuse_collisions
 
@@ -307,6 +319,20 @@ def test_a_folder_that_becomes_a_link_is_not_followed(beside, tmp_path, monkeypa
         return jobs
 
     monkeypatch.setattr(encode_module, "plan_trees", swapped)
-    assert main(["encode", "-r", str(given), *([] if beside else ["-o", str(out)]), "-q", "-f", "-j", "1"]) != 0
+    assert (
+        main(
+            [
+                "encode",
+                "-r",
+                str(given),
+                *([] if beside else ["-o", str(out)]),
+                "-q",
+                "-f",
+                "-j",
+                "1",
+            ]
+        )
+        != 0
+    )
     assert (victim / "b.bsm").read_bytes() == b"precious" and len(list(victim.iterdir())) == 2
     assert (out / "a.bsm").exists()

@@ -17,7 +17,9 @@ from tests.bsm.program import ROOT
 from tests.streams import events_of
 from tools.vectors.meshes import torus
 
-TWICE = pytest.mark.parametrize("twice", [lambda value: pickle.loads(pickle.dumps(value)), copy.deepcopy])
+TWICE = pytest.mark.parametrize(
+    "twice", [lambda value: pickle.loads(pickle.dumps(value)), copy.deepcopy]
+)
 
 
 @cache
@@ -105,5 +107,7 @@ sys.exit(any(ended))
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="this system cannot fork")
 def test_children_that_are_forked_while_threads_decode_decode_and_end():
     command = [sys.executable, "-W", "ignore::DeprecationWarning", "-c", PROGRAM]
-    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, timeout=CHILDREN * SECONDS)
+    done = subprocess.run(
+        command, cwd=ROOT, capture_output=True, text=True, timeout=CHILDREN * SECONDS
+    )
     assert done.returncode == 0, done.stdout + done.stderr

@@ -48,7 +48,9 @@ WORKS = {
     "quick": lambda streams, heard: bsm.encode(MESH, effort="quick", progress=heard),
     "target": lambda streams, heard: bsm.encode(MESH, size="3kB", progress=heard),
     "decode": lambda streams, heard: bsm.decode(streams[0], progress=heard),
-    "encode_sequence": lambda streams, heard: bsm.encode_sequence(FRAMES, MESH.faces, progress=heard),
+    "encode_sequence": lambda streams, heard: bsm.encode_sequence(
+        FRAMES, MESH.faces, progress=heard
+    ),
     "encode_frames": lambda streams, heard: bsm.encode_frames([MESH, MESH], progress=heard),
     "decode_sequence": lambda streams, heard: bsm.decode_sequence(streams[1], progress=heard),
     "denoise": lambda streams, heard: bsm.denoise(MESH, progress=heard),
@@ -111,7 +113,9 @@ def test_what_is_left_out_is_a_warning_at_the_line_of_the_call(tmp_path):
     assert found[0].filename == __file__
     quads = tmp_path / "quads.obj"
     quads.write_text("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\nmtllib none.mtl\n")
-    with pytest.warns(bsm.BsmWarning, match=r"quads.obj: polygons were cut into triangles: 1") as found:
+    with pytest.warns(
+        bsm.BsmWarning, match=r"quads.obj: polygons were cut into triangles: 1"
+    ) as found:
         bsm.load(quads)
     assert {attribute.filename for attribute in found} == {__file__}
     with pytest.warns(bsm.BsmWarning, match="no face uses"):
@@ -130,9 +134,15 @@ def test_commands_print_no_raw_warnings(tmp_path, capfd):
     """Neither in this process, nor in those of many jobs, nor in that of a mesh that was dropped on the page."""
     for name in ("a.npz", "b.npz"):
         np.savez(tmp_path / name, positions=LOOSE[0], faces=LOOSE[1])
-    done = process("encode", tmp_path / "a.npz", tmp_path / "b.npz", "-j", 2, "-o", f"{tmp_path}/out/")
-    assert done.returncode == 0 and b"no face uses" in done.stderr and b"Warning" not in done.stderr, done.stderr
-    assert isinstance(list(uploaded([("a.npz", (tmp_path / "a.npz").read_bytes())], "balanced"))[-1], Content)
+    done = process(
+        "encode", tmp_path / "a.npz", tmp_path / "b.npz", "-j", 2, "-o", f"{tmp_path}/out/"
+    )
+    assert (
+        done.returncode == 0 and b"no face uses" in done.stderr and b"Warning" not in done.stderr
+    ), done.stderr
+    assert isinstance(
+        list(uploaded([("a.npz", (tmp_path / "a.npz").read_bytes())], "balanced"))[-1], Content
+    )
     assert "Warning" not in capfd.readouterr().err
 
 
@@ -143,7 +153,12 @@ def test_keywords_are_those_of_the_options():
         return {item.name for item in fields(kind)}
 
     meshes = named(bsm.EncodeOptions) | named(Paper) | {*options.TARGETS, *options.BOUNDS, "preset"}
-    sequences = named(bsm.SequenceOptions) | {*options.SEQUENCE_TARGETS, *options.BOUNDS, "preset", "effort"}
+    sequences = named(bsm.SequenceOptions) | {
+        *options.SEQUENCE_TARGETS,
+        *options.BOUNDS,
+        "preset",
+        "effort",
+    }
     assert set(keywords["OptionKeywords"].__annotations__) == meshes
     assert set(keywords["EncodeKeywords"].__annotations__) == meshes | {"progress", "simplify"}
     assert set(keywords["SequenceKeywords"].__annotations__) == sequences
@@ -166,12 +181,18 @@ def test_a_type_checker_finds_keywords_that_there_are_not(tmp_path):
         'save("x", "y", treads=1)',
         'encode("x", step="1")',
     ]
-    wrong += ["encode_sequence([], [], bpv=1)", 'denoise("x", iteration=3)', 'decode("x", progress=3)']
+    wrong += [
+        "encode_sequence([], [], bpv=1)",
+        'denoise("x", iteration=3)',
+        'decode("x", progress=3)',
+    ]
     lines = [f"bsm.{call}\n" for call in wrong]
     (tmp_path / "wrong.py").write_text("import bsm\n" + "".join(lines))
     command = [sys.executable, "-m", "mypy", "--strict", "--cache-dir", str(tmp_path / "cache")]
     right, found = (
-        subprocess.run([*command, f"{name}.py"], cwd=tmp_path, capture_output=True, text=True, check=False)
+        subprocess.run(
+            [*command, f"{name}.py"], cwd=tmp_path, capture_output=True, text=True, check=False
+        )
         for name in ("right", "wrong")
     )
     assert right.returncode == 0, right.stdout
@@ -198,7 +219,16 @@ def test_commands_escape_names_and_metadata(command, tmp_path, capsys):
 
     path = tmp_path / "mesh.bsm"
     path.write_bytes(bsm.encode(torus(6, 6), grid=8, metadata={HOSTILE: HOSTILE}))
-    assert main([command, str(path), *(["-o", str(tmp_path / "mesh.ply")] if command == "decode" else [])]) == 0
+    assert (
+        main(
+            [
+                command,
+                str(path),
+                *(["-o", str(tmp_path / "mesh.ply")] if command == "decode" else []),
+            ]
+        )
+        == 0
+    )
     printed = capsys.readouterr()
     assert not set("\x1b\x07\u202e") & set(printed.out + printed.err)
     assert "\nb: forged" not in printed.out + printed.err
@@ -212,7 +242,9 @@ def test_time_is_reported_where_nothing_else_is(lines):
     work += "with console.progress('denoising') as progress: input(); progress.stage('rehearsing', 0.1); input()"
     drawn, said = (b"denoising: 00:0", rb"rehearsing: +\d+%.*<00:"), b""
     ours, theirs = pty.openpty()
-    with subprocess.Popen([sys.executable, "-c", work], stdin=subprocess.PIPE, stderr=theirs, bufsize=0) as process:
+    with subprocess.Popen(
+        [sys.executable, "-c", work], stdin=subprocess.PIPE, stderr=theirs, bufsize=0
+    ) as process:
         os.close(theirs)
         for words in (b'"seconds_left": null', b'"seconds_left": [1-9]') if lines else drawn:
             while not re.search(words, said):
@@ -255,7 +287,9 @@ def test_programs_are_reported_in_lines_of_json(monkeypatch, capsys):
 
 def test_stages_count_by_the_seconds_that_they_are_expected_to_take():
     heard = []
-    stages = Stages(lambda done, total: heard.append(done / total), {"reading": 1.0, "encoding": 3.0})
+    stages = Stages(
+        lambda done, total: heard.append(done / total), {"reading": 1.0, "encoding": 3.0}
+    )
     stages.report("reading", 0.5)
     stages.report("reading", 1.0)
     stages.of("encoding")(1, 3)

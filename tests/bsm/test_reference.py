@@ -17,10 +17,19 @@ from tests.shapes import knot
 from tools.docs_pages import MODULES, reference
 from tools.noise import gaussian_along_normals
 
-NAMES = [name for name in bsm.__all__ if inspect.isfunction(getattr(bsm, name)) or inspect.isclass(getattr(bsm, name))]
+NAMES = [
+    name
+    for name in bsm.__all__
+    if inspect.isfunction(getattr(bsm, name)) or inspect.isclass(getattr(bsm, name))
+]
 VALUES = {"__version__", "END_OF_STREAM", "NEED_DATA", "PRESETS"}
 """What is neither: the pages of `Signal` and of `EncodeOptions` tell of them."""
-NEEDS = {"bsm.trimesh": "trimesh", "bsm.pyvista": "pyvista", "bsm.vtk": "vtkmodules", "bsm.openmesh": "openmesh"}
+NEEDS = {
+    "bsm.trimesh": "trimesh",
+    "bsm.pyvista": "pyvista",
+    "bsm.vtk": "vtkmodules",
+    "bsm.openmesh": "openmesh",
+}
 FLAGS = doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE
 
 
@@ -70,12 +79,19 @@ def check_alone(found):
     assert {*taken} <= described(text)
     if inspect.isfunction(found):
         assert "Raises" in sections
-        assert ("Returns" in sections) == (inspect.signature(found).return_annotation not in ("None", None))
+        assert ("Returns" in sections) == (
+            inspect.signature(found).return_annotation not in ("None", None)
+        )
 
 
 def _signature(found):
     if dataclasses.is_dataclass(found):
-        inherited = {name.name for base in found.__bases__ if dataclasses.is_dataclass(base) for name in _own(base)}
+        inherited = {
+            name.name
+            for base in found.__bases__
+            if dataclasses.is_dataclass(base)
+            for name in _own(base)
+        }
         return [name.name for name in _own(found) if name.name not in inherited]
     if inspect.isclass(found) and "__init__" not in vars(found):
         return []
@@ -89,7 +105,9 @@ def _own(kind):
 def run(found, folder, monkeypatch):
     """Run the examples of a docstring there."""
     monkeypatch.chdir(folder)
-    tests = doctest.DocTestFinder(recurse=False).find(found, getattr(found, "__name__", "bsm"), globs={})
+    tests = doctest.DocTestFinder(recurse=False).find(
+        found, getattr(found, "__name__", "bsm"), globs={}
+    )
     assert sum(len(test.examples) for test in tests) > 0
     assert [doctest.DocTestRunner(optionflags=FLAGS).run(test).failed for test in tests] == [0]
 

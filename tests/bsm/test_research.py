@@ -29,7 +29,9 @@ def stripes(offsets, neighbors, parts):
 
 def test_nothing_of_ones_own_is_the_codec():
     step = 0.01
-    assert research.encode(MESH, step=step, threads=1).data == bsm.encode(MESH, step=step, threads=1)
+    assert research.encode(MESH, step=step, threads=1).data == bsm.encode(
+        MESH, step=step, threads=1
+    )
 
 
 def test_the_codecs_own_dictionary_and_predictor_change_nothing():
@@ -43,7 +45,9 @@ def test_the_codecs_own_dictionary_and_predictor_change_nothing():
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    "idea", [research.Idea(dictionary=eigenvectors), research.Idea(predictor=constant)], ids=["dictionary", "predictor"]
+    "idea",
+    [research.Idea(dictionary=eigenvectors), research.Idea(predictor=constant)],
+    ids=["dictionary", "predictor"],
 )
 def test_what_is_encoded_with_an_idea_comes_with_its_mesh(idea):
     data, decoded = research.encode(MESH, idea, step=0.01)
@@ -53,17 +57,23 @@ def test_what_is_encoded_with_an_idea_comes_with_its_mesh(idea):
 
 
 def test_a_partition_is_sent_and_any_decoder_decodes_it():
-    data, mesh = research.encode(MESH, research.Idea(partition=stripes), step=0.01, block_size=300, keep_order=True)
+    data, mesh = research.encode(
+        MESH, research.Idea(partition=stripes), step=0.01, block_size=300, keep_order=True
+    )
     decoded = bsm.decode(data)
     assert bsm.compare(MESH, decoded).max_error_relative < 0.05
-    assert np.array_equal(decoded.positions, mesh.positions) and np.array_equal(decoded.faces, mesh.faces)
+    assert np.array_equal(decoded.positions, mesh.positions) and np.array_equal(
+        decoded.faces, mesh.faces
+    )
     found = research.blocks(MESH, research.Idea(partition=stripes), block_size=300)
     assert len(found) == round(len(MESH.positions) / 300)
 
 
 def test_blocks_are_what_the_codec_works_on():
     found = research.blocks(MESH, step=0.01, block_size=400)
-    assert {vertex for block in found for vertex in block.site.vertices} == set(range(len(MESH.positions)))
+    assert {vertex for block in found for vertex in block.site.vertices} == set(
+        range(len(MESH.positions))
+    )
     for block in found:
         site, columns = block.site, block.dictionary
         np.testing.assert_allclose(columns.T @ columns, np.eye(columns.shape[1]), atol=1e-5)
@@ -78,14 +88,22 @@ def test_blocks_are_what_the_codec_works_on():
 @pytest.mark.parametrize(
     ("idea", "error", "words"),
     [
-        (research.Idea(dictionary=lambda site, width: np.zeros((site.size, 2))), bsm.ArgumentError, "shape"),
+        (
+            research.Idea(dictionary=lambda site, width: np.zeros((site.size, 2))),
+            bsm.ArgumentError,
+            "shape",
+        ),
         (
             research.Idea(dictionary=lambda site, width: np.full((site.size, width), np.nan)),
             bsm.ArgumentError,
             "finite",
         ),
         (research.Idea(predictor=lambda site: site.ours(3)), bsm.OptionError, "not known"),
-        (research.Idea(partition=lambda offsets, neighbors, parts: [0.5]), bsm.ArgumentError, "integers"),
+        (
+            research.Idea(partition=lambda offsets, neighbors, parts: [0.5]),
+            bsm.ArgumentError,
+            "integers",
+        ),
     ],
 )
 def test_what_cannot_be_is_reported(idea, error, words):
@@ -95,7 +113,9 @@ def test_what_cannot_be_is_reported(idea, error, words):
 
 def test_an_idea_that_gives_another_thing_each_time_is_refused():
     random = np.random.default_rng(0)
-    idea = research.Idea(predictor=lambda site: site.prediction + random.normal(size=(site.size, 3)))
+    idea = research.Idea(
+        predictor=lambda site: site.prediction + random.normal(size=(site.size, 3))
+    )
     with pytest.raises(bsm.OptionError, match="returns different values"):
         research.encode(MESH, idea, step=0.01)
 
@@ -133,7 +153,12 @@ def test_parts_are_decoded_one_after_the_other_as_they_were_encoded():
 def test_what_is_no_part_is_refused():
     pytest.importorskip("zstandard", reason="needs zstandard (extra paper)")
     data, _ = research.PartCoder().encode(PARTS[0])
-    others = (bsm.encode(MESH, preset="paper"), research.MARK + bsm.encode(MESH), data[len(research.MARK) :], data[:-9])
+    others = (
+        bsm.encode(MESH, preset="paper"),
+        research.MARK + bsm.encode(MESH),
+        data[len(research.MARK) :],
+        data[:-9],
+    )
     changed = (data[:at] + bytes([data[at] ^ 1]) + data[at + 1 :] for at in range(0, len(data), 5))
     for other in (*others, *changed, b""):
         with pytest.raises(bsm.BsmError):
@@ -145,6 +170,12 @@ def test_what_is_no_part_is_refused():
 def test_what_a_part_cannot_have_is_refused_before_anything_is_coded():
     with pytest.raises(bsm.MeshError, match="at most 8192 vertices, not 8464; cut it"):
         research.PartCoder().encode(patch(92, 92))
-    for wrong in ({"bits": None}, {"keep_order": True}, {"block_size": 100}, {"partition": "metis"}, {"look": 1.0}):
+    for wrong in (
+        {"bits": None},
+        {"keep_order": True},
+        {"block_size": 100},
+        {"partition": "metis"},
+        {"look": 1.0},
+    ):
         with pytest.raises(bsm.OptionError, match=f"a part cannot have {next(iter(wrong))}"):
             research.PartCoder(**wrong)

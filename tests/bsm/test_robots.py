@@ -34,13 +34,21 @@ def robot(tmp_path, monkeypatch):
 
 
 def files_of(folder):
-    return {str(path.relative_to(folder)) for path in Path(folder).rglob("*") if path.suffix not in (".mtl", "")}
+    return {
+        str(path.relative_to(folder))
+        for path in Path(folder).rglob("*")
+        if path.suffix not in (".mtl", "")
+    }
 
 
 def test_a_shared_image_is_stored_once_and_a_folder_comes_back_under_its_names(robot, capsys):
     assert main(["encode", "-r", "robot", "-o", "small"]) == 0
     said, image = capsys.readouterr().err, Path("robot/skin.png").read_bytes()
-    assert "1 image of several meshes" in said and " texels" in said and f"6 of 6 files, {robot} -> " in said
+    assert (
+        "1 image of several meshes" in said
+        and " texels" in said
+        and f"6 of 6 files, {robot} -> " in said
+    )
     assert [path.read_bytes() for path in Path("small/images").iterdir()] == [image]
     streams = [path.stat().st_size for path in Path("small").rglob("*.bsm")]
     assert max(streams) < len(image) and f"-> {sum(streams) + len(image)} bytes" in said
@@ -64,7 +72,10 @@ def test_images_are_linked_kept_or_left_out(robot, capsys):
     for link in ("", "../secret.png", f"images/../{32 * '0'}.png", f"images/{32 * '0'}.png"):
         if link:
             next(Path("images").iterdir()).write_bytes(b"another")
-            bsm.save(bsm.TriangleMesh(SHAPE.positions, SHAPE.faces, (), {"image.0.link": link}), "hand.bsm")
+            bsm.save(
+                bsm.TriangleMesh(SHAPE.positions, SHAPE.faces, (), {"image.0.link": link}),
+                "hand.bsm",
+            )
         assert main(["decode", "hand.bsm", "-f", "-o", "out.obj"]) == 0
         assert ("which is missing" in capsys.readouterr().err) == bool(link)
 
@@ -72,7 +83,9 @@ def test_images_are_linked_kept_or_left_out(robot, capsys):
 def test_coordinates_are_scaled_to_the_unit_that_is_asked_for(robot):
     assert main(["encode", "robot/hand.STL", "-o", "hand.bsm", "--meta", "unit=in"]) == 0
     assert main(["decode", "hand.bsm", "-o", "hand.ply", "--unit-out", "m"]) == 0
-    own, scaled = (np.ptp(read_mesh(name).mesh.positions, axis=0) for name in ("robot/hand.STL", "hand.ply"))
+    own, scaled = (
+        np.ptp(read_mesh(name).mesh.positions, axis=0) for name in ("robot/hand.STL", "hand.ply")
+    )
     np.testing.assert_allclose(scaled, 0.0254 * own, rtol=0.02)
     with pytest.raises(SystemExit):
         main(["decode", "hand.bsm", "-o", "hand.ply", "--unit-out", "parsec"])
@@ -94,18 +107,26 @@ def write_dae_of_a_maker(path: Path, unit: float) -> None:
     """A DAE in centimeters whose z axis points up, written by pycollada itself."""
     collada = pytest.importorskip("collada")
     document = collada.Collada()
-    document.assetInfo.upaxis, document.assetInfo.unitmeter, document.assetInfo.unitname = "Z_UP", unit, "centimeter"
+    document.assetInfo.upaxis, document.assetInfo.unitmeter, document.assetInfo.unitname = (
+        "Z_UP",
+        unit,
+        "centimeter",
+    )
     effect = collada.material.Effect("e", [], "phong", diffuse=(0.8, 0.2, 0.1, 1))
     material = collada.material.Material("m", "orange", effect)
     document.effects.append(effect)
     document.materials.append(material)
-    places = collada.source.FloatSource("v", (SHAPE.positions * (3.0, 2.0, 1.0)).reshape(-1), ("X", "Y", "Z"))
+    places = collada.source.FloatSource(
+        "v", (SHAPE.positions * (3.0, 2.0, 1.0)).reshape(-1), ("X", "Y", "Z")
+    )
     geometry = collada.geometry.Geometry(document, "g", "base", [places])
     inputs = collada.source.InputList()
     inputs.addInput(0, "VERTEX", "#v")
     geometry.primitives.append(geometry.createTriangleSet(SHAPE.faces.reshape(-1), inputs, "r"))
     document.geometries.append(geometry)
-    shown = collada.scene.GeometryNode(geometry, [collada.scene.MaterialNode("r", material, inputs=[])])
+    shown = collada.scene.GeometryNode(
+        geometry, [collada.scene.MaterialNode("r", material, inputs=[])]
+    )
     document.scene = collada.scene.Scene("s", [collada.scene.Node("base", children=[shown])])
     document.scenes.append(document.scene)
     with path.open("wb") as file:
@@ -129,26 +150,34 @@ def package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 def test_a_package_loads_as_before(package: Path, capsys: pytest.CaptureFixture[str]) -> None:
     loader = pytest.importorskip("yourdfpy")
     assert main(["encode", "-r", "arm", "-o", "small", "--preset", "near-lossless"]) == 0
-    assert "copied 3 files that refer to meshes: arm.urdf, package.xml, scene.xml" in capsys.readouterr().err
+    assert (
+        "copied 3 files that refer to meshes: arm.urdf, package.xml, scene.xml"
+        in capsys.readouterr().err
+    )
     assert main(["decode", "-q", "-r", "small", "-o", "back", "--format", "same"]) == 0
     scenes = []
     for folder in ("arm", "back"):
         place = f"{package}/{folder}"
         robot = loader.URDF.load(
-            f"{folder}/urdf/arm.urdf", filename_handler=lambda fname, to=place: fname.replace("package://arm", to)
+            f"{folder}/urdf/arm.urdf",
+            filename_handler=lambda fname, to=place: fname.replace("package://arm", to),
         )
         scenes.append(robot.scene)
     before, after = scenes
     assert len(before.geometry) == len(after.geometry) == 2
     size = np.ptp(before.bounds, axis=0).max()
     assert np.abs(before.bounds - after.bounds).max() <= 1e-3 * size
-    poses = [sorted(scene.graph.get(node)[0].tolist() for node in scene.graph.nodes_geometry) for scene in scenes]
+    poses = [
+        sorted(scene.graph.get(node)[0].tolist() for node in scene.graph.nodes_geometry)
+        for scene in scenes
+    ]
     assert np.abs(np.subtract(*poses)).max() == 0
     for one, other in zip(before.geometry.values(), after.geometry.values(), strict=True):
         assert np.abs(one.bounds - other.bounds).max() <= 1e-3 * np.ptp(one.bounds, axis=0).max()
 
 
-@pytest.mark.filterwarnings("ignore::PendingDeprecationWarning")  # of pycollada, which has matrices of numpy
+# Of pycollada, which has matrices of numpy.
+@pytest.mark.filterwarnings("ignore::PendingDeprecationWarning")
 def test_a_dae_comes_back_in_its_axes_units_and_names(package: Path) -> None:
     collada = pytest.importorskip("collada")
     assert main(["encode", "-q", "-f", "-r", "arm", "-o", "small", "--preset", "lossless"]) == 0

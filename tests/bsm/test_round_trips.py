@@ -32,7 +32,9 @@ def museum(tmp_path, monkeypatch) -> dict[str, Any]:
             pixels = random.integers(0, 255, (16, 16, 3)).astype(np.uint8)
             pillow.fromarray(pixels).save(f"{room}/{material}.png")
             images[f"{room}/{material}"] = pixels
-            library += f"newmtl {material}\nKd 1 1 1\nKs 0.25 0.5 0.75\nNs 20\nmap_Kd {material}.png\n"
+            library += (
+                f"newmtl {material}\nKd 1 1 1\nKs 0.25 0.5 0.75\nNs 20\nmap_Kd {material}.png\n"
+            )
         Path(room, "bust.mtl").write_text(library)
         faces = f"usemtl wood\n{''.join(lines[:half])}usemtl gold\n{''.join(lines[half:])}"
         Path(room, "bust.obj").write_text(f"mtllib bust.mtl\n{places}{flat}{faces}")
@@ -50,13 +52,20 @@ def materials_by_trimesh(path: str) -> dict[str, Any]:
     for part in scene.geometry.values():
         material = part.visual.material
         pixels = np.asarray(material.image.convert("RGB"))
-        found[material.name] = pixels, np.asarray(material.specular)[:3], len(part.faces), part.bounds
+        found[material.name] = (
+            pixels,
+            np.asarray(material.specular)[:3],
+            len(part.faces),
+            part.bounds,
+        )
     return found
 
 
 @pytest.mark.parametrize("room", ["Saal 1", "Saal 2"])
 def test_materials_and_images_of_a_museum_are_those_that_trimesh_read_before(museum, room):
-    before, after = (materials_by_trimesh(f"{folder}/{room}/bust.obj") for folder in ("scans", "back"))
+    before, after = (
+        materials_by_trimesh(f"{folder}/{room}/bust.obj") for folder in ("scans", "back")
+    )
     assert before.keys() == after.keys() == {"wood", "gold"}
     for name, (pixels, specular, count, bounds) in before.items():
         np.testing.assert_array_equal(pixels, museum[f"scans/{room}/{name}"])
@@ -98,7 +107,9 @@ def box_by_lib3mf(path: str) -> tuple[str, Any, int]:
 
 def test_a_printed_part_keeps_its_unit_and_size(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    part = bsm.TriangleMesh(SHAPE.positions * 20, SHAPE.faces, metadata={"unit": "mm", "name": "ring"})
+    part = bsm.TriangleMesh(
+        SHAPE.positions * 20, SHAPE.faces, metadata={"unit": "mm", "name": "ring"}
+    )
     bsm.save(part, "ring.3mf")
     assert run("encode", "ring.3mf", "--max-error", "0.02mm", "-q") == 0
     assert run("decode", "ring.bsm", "-o", "back.3mf", "-q") == 0
@@ -120,7 +131,9 @@ def test_an_stl_with_a_unit_becomes_a_3mf_of_that_unit(tmp_path, monkeypatch):
     assert run("decode", "ring.bsm", "-o", "ring.3mf", "-q") == 0
     unit, box, count = box_by_lib3mf("ring.3mf")
     assert unit == "Inch" and count == len(SHAPE.faces)
-    np.testing.assert_allclose(box, np.ptp(SHAPE.positions, axis=0), atol=2 * BOUND * SHAPE.diagonal)
+    np.testing.assert_allclose(
+        box, np.ptp(SHAPE.positions, axis=0), atol=2 * BOUND * SHAPE.diagonal
+    )
 
 
 @pytest.mark.parametrize("pattern", ["shot/walk_####.obj", "shot/walk_%04d.obj"])
@@ -133,7 +146,9 @@ def test_frames_come_back_under_their_numbers(tmp_path, monkeypatch, pattern):
         bsm.save(bsm.TriangleMesh(frame, SHAPE.faces), f"shot/walk_{number}.obj")
     assert run("encode", pattern, "-o", "walk.bsm", "--keep-order", "-q") == 0
     assert run("decode", "walk.bsm", "-o", pattern.replace("shot", "back"), "-q") == 0
-    assert {path.name for path in Path("back").glob("*.obj")} == {f"walk_{number}.obj" for number in frames}
+    assert {path.name for path in Path("back").glob("*.obj")} == {
+        f"walk_{number}.obj" for number in frames
+    }
     for number, frame in frames.items():
         read = trimesh.load(f"back/walk_{number}.obj", process=False)
         np.testing.assert_array_equal(read.faces, SHAPE.faces)

@@ -38,7 +38,10 @@ def test_frames_of_other_faces_are_an_error_that_says_how_to_permit_them(tmp_pat
     paths = written(tmp_path / "capture", capture(*PIECES))
     assert run("encode", *paths, "-o", tmp_path / "a.bsm") != 0
     printed = capsys.readouterr().err
-    assert "f004.ply (frame 4) has other faces than" in printed and "42 vertices where there were 60" in printed
+    assert (
+        "f004.ply (frame 4) has other faces than" in printed
+        and "42 vertices where there were 60" in printed
+    )
     assert "--runs" in printed and not (tmp_path / "a.bsm").exists()
 
 
@@ -68,14 +71,20 @@ def test_runs_that_differ_in_numbers_or_in_faces_without_area_are_compared(tmp_p
             faces[tuple(np.argwhere(faces == 0)[0])] = len(positions)
             positions = np.vstack([positions, positions[:1]])
         elif way != "copy":  # a face that has two corners at one place
-            faces = np.vstack([faces, [[0, 0, 1] if not late else [0, 1, 1] if way == "corner" else [1, 0, 0]]])
+            faces = np.vstack(
+                [faces, [[0, 0, 1] if not late else [0, 1, 1] if way == "corner" else [1, 0, 0]]]
+            )
         meshes[number] = bsm.TriangleMesh(positions, faces)
     written(tmp_path / "capture", meshes)
     assert run("encode", tmp_path / "capture", "-o", tmp_path / "a.bsm", *RUNS, "-q") == 0
     capsys.readouterr()
     assert run("compare", tmp_path / "capture", tmp_path / "a.bsm", "--json", "--look") == 0
     found = json.loads(capsys.readouterr().out)
-    assert len(found["frames"]) == 6 and 0.0 < found["max_error_relative"] <= 0.01 and found["look_worst"] > 0.0
+    assert (
+        len(found["frames"]) == 6
+        and 0.0 < found["max_error_relative"] <= 0.01
+        and found["look_worst"] > 0.0
+    )
 
 
 def test_what_cannot_hold_them_says_so(stream, tmp_path, capsys):
@@ -98,17 +107,23 @@ def test_caches_are_a_series(stream, tmp_path, kind):
     for start, (_, count) in zip(starts, PIECES, strict=True):
         source = sequence_in(str(tmp_path / f"a_{start:05d}.{kind}"))
         frames = np.array(list(source.frames))
-        assert frames.shape == (count, len(meshes[start].positions), 3) and len(source.faces) == len(
-            meshes[start].faces
+        assert frames.shape == (count, len(meshes[start].positions), 3) and len(
+            source.faces
+        ) == len(meshes[start].faces)
+        assert np.allclose(
+            np.ptp(frames[-1], axis=0),
+            np.ptp(meshes[start + count - 1].positions, axis=0),
+            atol=0.05,
         )
-        assert np.allclose(np.ptp(frames[-1], axis=0), np.ptp(meshes[start + count - 1].positions, axis=0), atol=0.05)
 
 
 def test_meshes_of_a_glb_take_turns(stream, tmp_path):
     """Each frame shows its own mesh, as a player of glTF evaluates scales and weights."""
     assert run("decode", stream, "-o", tmp_path / "a.glb") == 0
     tree, _ = unpack((tmp_path / "a.glb").read_bytes())
-    assert [len(mesh["primitives"][0]["targets"]) for mesh in tree["meshes"]] == [count - 1 for _, count in PIECES]
+    assert [len(mesh["primitives"][0]["targets"]) for mesh in tree["meshes"]] == [
+        count - 1 for _, count in PIECES
+    ]
     source = sequence_in(str(tmp_path / "a.glb"), animation="frames", rate=24.0)
     ends = np.cumsum([0, *(len(torus(size, 6).positions) for size, _ in PIECES)])
     frames, meshes = list(source.frames), capture(*PIECES)
@@ -151,7 +166,13 @@ def test_frames_without_faces_go_to_usd_and_come_back(tmp_path):
     (tmp_path / "a.bsm").write_bytes(bsm.encode_frames(meshes))
     assert run("decode", tmp_path / "a.bsm", "-o", tmp_path / "a.usda", "-q") == 0
     assert run("encode", tmp_path / "a.usda", "-o", tmp_path / "b.bsm", "--runs", "-q") == 0
-    assert [len(frame.faces) for frame in bsm.decode_frames(tmp_path / "b.bsm")] == [120, 120, 1, 1, 84]
+    assert [len(frame.faces) for frame in bsm.decode_frames(tmp_path / "b.bsm")] == [
+        120,
+        120,
+        1,
+        1,
+        84,
+    ]
     assert run("decode", tmp_path / "b.bsm", "-o", tmp_path / "a.glb", "-q") == 0
 
 
@@ -162,7 +183,12 @@ def test_usd_has_time_samples_of_faces(stream, tmp_path, capsys):
     assert "change" in capsys.readouterr().err
     assert run("encode", tmp_path / "a.usdc", "-o", tmp_path / "b.bsm") != 0
     assert "--runs" in capsys.readouterr().err
-    assert run("encode", tmp_path / "a.usdc", "-o", tmp_path / "b.bsm", "--runs", "--max-error", "1e-3") == 0
+    assert (
+        run(
+            "encode", tmp_path / "a.usdc", "-o", tmp_path / "b.bsm", "--runs", "--max-error", "1e-3"
+        )
+        == 0
+    )
     assert "connectivity changes at frames 4, 7" in capsys.readouterr().err
     assert run("compare", stream, tmp_path / "b.bsm", "--json") == 0
     assert json.loads(capsys.readouterr().out)["max_error_relative"] < 2e-3
@@ -173,7 +199,11 @@ def test_colors_of_runs_go_to_usd_and_come_back(tmp_path):
     meshes = [
         replace(
             mesh,
-            attributes=(Attribute("color", np.full((len(mesh.positions), 3), 20 * k, np.uint8), "vertex", "color"),),
+            attributes=(
+                Attribute(
+                    "color", np.full((len(mesh.positions), 3), 20 * k, np.uint8), "vertex", "color"
+                ),
+            ),
         )
         for k, mesh in enumerate(capture((10, 1), (7, 1), (5, 1)))
     ]
@@ -181,7 +211,9 @@ def test_colors_of_runs_go_to_usd_and_come_back(tmp_path):
     (tmp_path / "a.bsm").write_bytes(data)
     assert run("decode", tmp_path / "a.bsm", "-o", tmp_path / "a.usda", "-q") == 0
     assert run("encode", tmp_path / "a.usda", "-o", tmp_path / "b.bsm", *RUNS, "-q") == 0
-    shades = [int(frame.attributes[0].values[0, 0]) for frame in bsm.decode_frames(tmp_path / "b.bsm")]
+    shades = [
+        int(frame.attributes[0].values[0, 0]) for frame in bsm.decode_frames(tmp_path / "b.bsm")
+    ]
     assert shades == [0, 20, 40]
 
 
@@ -206,7 +238,15 @@ def test_verify_and_part_of_a_sequence(stream, tmp_path):
 
 def test_permutations_are_of_one_mesh(stream, tmp_path, capsys):
     order = tmp_path / "order.npy"
-    words = ("encode", tmp_path / "capture", "-o", tmp_path / "b.bsm", "--runs", "--permutation", order)
+    words = (
+        "encode",
+        tmp_path / "capture",
+        "-o",
+        tmp_path / "b.bsm",
+        "--runs",
+        "--permutation",
+        order,
+    )
     assert run(*words) != 0
     assert "order of one mesh" in capsys.readouterr().err
 

@@ -40,7 +40,10 @@ def npz(tmp_path):
 
 @pytest.mark.parametrize("kind", ["npz", "npy", "obj", "ply"])
 def test_there_and_back_in_every_form(npz, tmp_path, kind):
-    stream, back = tmp_path / "a.bsm", tmp_path / (f"back.{kind}" if kind in ("npz", "npy") else "back")
+    stream, back = (
+        tmp_path / "a.bsm",
+        tmp_path / (f"back.{kind}" if kind in ("npz", "npy") else "back"),
+    )
     encoded = run_json("encode", npz, "-o", stream, "--gop", 4, *QUICK)
     assert encoded["frames"] == FRAMES and encoded["bytes"] == stream.stat().st_size
     decoded = run_json("decode", stream, "-o", back, *([] if back.suffix else ["--format", kind]))
@@ -54,7 +57,9 @@ def test_there_and_back_in_every_form(npz, tmp_path, kind):
 
 def test_info_and_verify(npz, tmp_path, capsys):
     stream = tmp_path / "a.bsm"
-    encoded = run_json("encode", npz, "-o", stream, "--gop", 4, "--frame-rate", 25, "--preset", "near-lossless")
+    encoded = run_json(
+        "encode", npz, "-o", stream, "--gop", 4, "--frame-rate", 25, "--preset", "near-lossless"
+    )
     info = run_json("info", stream)
     assert info["frames"] == FRAMES and info["metadata"]["frame_rate"] == 25
     lengths = [gop["frames"] for gop in info["gops"]]
@@ -62,7 +67,10 @@ def test_info_and_verify(npz, tmp_path, capsys):
     assert [gop["first"] for gop in info["gops"]] == np.cumsum([0, *lengths[:-1]]).tolist()
     assert all(stream.read_bytes()[gop["offset"]] & 15 == 7 for gop in info["gops"])
     assert info["bpvf_total"] == pytest.approx(encoded["bpvf_total"])
-    assert bsm("info", stream) == 0 and f"6 frames, 25 per second, in {len(lengths)} GOPs" in capsys.readouterr().out
+    assert (
+        bsm("info", stream) == 0
+        and f"6 frames, 25 per second, in {len(lengths)} GOPs" in capsys.readouterr().out
+    )
     assert bsm("verify", stream) == 0
     broken = bytearray(stream.read_bytes())
     broken[info["gops"][1]["offset"] + 20] ^= 1
@@ -74,7 +82,12 @@ def test_some_frames_only(npz, tmp_path):
     stream, whole, part = tmp_path / "a.bsm", tmp_path / "whole.npz", tmp_path / "part.npz"
     assert bsm("encode", npz, "-o", stream, "--gop", 2, *QUICK) == 0
     assert bsm("decode", stream, "-o", whole) == 0
-    for text, chosen in (("3:5", slice(3, 5)), (":2", slice(2)), ("4:", slice(4, None)), ("5:99", slice(5, None))):
+    for text, chosen in (
+        ("3:5", slice(3, 5)),
+        (":2", slice(2)),
+        ("4:", slice(4, None)),
+        ("5:99", slice(5, None)),
+    ):
         assert bsm("decode", stream, "-o", part, "-f", "--frames", text) == 0
         assert np.array_equal(np.load(part)["positions"], np.load(whole)["positions"][chosen])
     for text in ("3", "3:3", "a:b", "-1:2", "6:9"):
@@ -91,7 +104,10 @@ def test_tolerant_decoding_names_what_is_lost(npz, tmp_path, capsys):
     assert bsm("decode", stream, "-o", part) != 0 and not part.exists()
     assert bsm("decode", stream, "-o", part, "--tolerant") == 0
     error = capsys.readouterr().err
-    assert "frames 2 to 3 are lost: " in error and "frames 4 to 5 are lost: a GOP refers to a missing GOP" in error
+    assert (
+        "frames 2 to 3 are lost: " in error
+        and "frames 4 to 5 are lost: a GOP refers to a missing GOP" in error
+    )
     assert len(np.load(part)["positions"]) == 2
 
 
@@ -114,7 +130,10 @@ def test_colors_that_change_are_not_dropped_in_silence(tmp_path, capsys):
         for number, shade in enumerate(shades):
             size = len(faces if domain == "face" else positions[0])
             color = Attribute("color", np.full((size, 3), shade, np.uint8), domain, "color")
-            save(TriangleMesh(positions[number], faces, [color]), str(tmp_path / name / f"{number}.ply"))
+            save(
+                TriangleMesh(positions[number], faces, [color]),
+                str(tmp_path / name / f"{number}.ply"),
+            )
     stream = tmp_path / "x.bsm"
     assert bsm("encode", tmp_path / "once", "-o", stream, "--set", "step=0.01") != 0
     assert "color differs in" in capsys.readouterr().err and not stream.exists()
@@ -123,12 +142,19 @@ def test_colors_that_change_are_not_dropped_in_silence(tmp_path, capsys):
     assert bsm("encode", tmp_path / "on", "-o", stream, "--set", "step=0.01", "--force") == 0
     assert "left out, for they move or change: color" in capsys.readouterr().err
     assert bsm("encode", tmp_path / "move", "-o", stream, "--set", "step=0.01", "--force") == 0
-    assert "color: per vertex, moves, within 0.09 on average in every frame" in capsys.readouterr().err
+    assert (
+        "color: per vertex, moves, within 0.09 on average in every frame" in capsys.readouterr().err
+    )
     assert bsm("decode", stream, "-o", f"{tmp_path / 'back'}/", "--format", "ply") == 0
     for number, shade in enumerate((0, 9, 0)):
         (color,) = read_mesh(tmp_path / "back" / f"0000{number}.ply").mesh.attributes
         assert (color.values == shade).all()
-    np.savez(tmp_path / "x.npz", positions=positions, faces=faces, colors=np.zeros((3, len(positions[0]), 5), np.uint8))
+    np.savez(
+        tmp_path / "x.npz",
+        positions=positions,
+        faces=faces,
+        colors=np.zeros((3, len(positions[0]), 5), np.uint8),
+    )
     assert bsm("encode", tmp_path / "x.npz", "-o", stream, "--set", "step=0.01", "--force") == 0
     assert "left out: colors" in capsys.readouterr().err
 
@@ -145,10 +171,17 @@ def test_arrays_that_change_go_from_npz_to_npz_and_to_forms_that_hold_them(tmp_p
     }
     np.savez(tmp_path / "x.npz", positions=positions, faces=faces, **arrays)
     stream, back = tmp_path / "x.bsm", tmp_path / "back.npz"
-    wanted = (word for each in ("heat=0.002", "color=exact", "height=exact") for word in ("--attribute", each))
+    wanted = (
+        word
+        for each in ("heat=0.002", "color=exact", "height=exact")
+        for word in ("--attribute", each)
+    )
     assert bsm("encode", tmp_path / "x.npz", "-o", stream, "--keep-order", *wanted, *QUICK) == 0
     errors = capsys.readouterr().err
-    assert "left out: junk" in errors and "heat: per vertex, moves, within 0.002 in every frame" in errors
+    assert (
+        "left out: junk" in errors
+        and "heat: per vertex, moves, within 0.002 in every frame" in errors
+    )
     assert bsm("decode", stream, "-o", back) == 0
     with np.load(back) as found:
         assert len(found) == 7 and {"positions", "faces", "metadata"} <= {*found}
@@ -159,7 +192,10 @@ def test_arrays_that_change_go_from_npz_to_npz_and_to_forms_that_hold_them(tmp_p
         assert np.abs(found["vertex/heat"][:, :, 0] - arrays["vertex/heat"]).max() <= 0.002
         again = {name: found[name] for name in found}
     np.savez(tmp_path / "again.npz", **again)
-    assert bsm("encode", tmp_path / "again.npz", "-o", tmp_path / "again.bsm", "--set", "step=0.01") == 0
+    assert (
+        bsm("encode", tmp_path / "again.npz", "-o", tmp_path / "again.bsm", "--set", "step=0.01")
+        == 0
+    )
     assert bsm("decode", stream, "-o", f"{tmp_path / 'ply'}/", "--format", "ply") == 0
     colors = {a.name: a.values for a in read_mesh(tmp_path / "ply" / "00003.ply").mesh.attributes}
     np.testing.assert_array_equal(colors["color"], arrays["color"][3])
@@ -171,11 +207,15 @@ def test_arrays_that_change_go_from_npz_to_npz_and_to_forms_that_hold_them(tmp_p
     assert "how heat changes" in left_out and "how color changes" not in left_out
     frames = sequence_in(tmp_path / "back.glb").meshes
     for mesh, shades in zip(frames, arrays["color"], strict=True):
-        (color,) = (attribute.values for attribute in mesh.attributes if attribute.semantic == "color")
+        (color,) = (
+            attribute.values for attribute in mesh.attributes if attribute.semantic == "color"
+        )
         np.testing.assert_array_equal(np.unique(color[:, :3], axis=0), np.unique(shades, axis=0))
     assert bsm("info", stream) == 0
     assert "uint8 per vertex, color" in capsys.readouterr().out
-    last = {attribute.name: attribute.values for attribute in list(decode_frames(stream))[4].attributes}
+    last = {
+        attribute.name: attribute.values for attribute in list(decode_frames(stream))[4].attributes
+    }
     np.testing.assert_array_equal(last["color"], arrays["color"][4])
 
 
@@ -202,13 +242,23 @@ def test_permutation_restores_the_order(npz, tmp_path):
 def test_what_only_wide_limits_allow_is_written_for_them(tmp_path):
     positions, faces = bending(2, 60, 40)
     np.savez(tmp_path / "large.npz", positions=positions, faces=faces)
-    words = ["encode", tmp_path / "large.npz", "-o", tmp_path / "a.bsm", "--quick", "--set", "block_size=2300"]
+    words = [
+        "encode",
+        tmp_path / "large.npz",
+        "-o",
+        tmp_path / "a.bsm",
+        "--quick",
+        "--set",
+        "block_size=2300",
+    ]
     for more in ([], ["-q"]):
         assert bsm(*words, *more) == 2 and not (tmp_path / "a.bsm").exists()
     assert bsm(*words, "--set", "limits=wide") == 0
 
 
-@pytest.mark.parametrize("words", [["--kg", 1, "--bpvf", 2], ["--set", "doi=1,2"], ["--bpv", 2], ["--gop", 0]])
+@pytest.mark.parametrize(
+    "words", [["--kg", 1, "--bpvf", 2], ["--set", "doi=1,2"], ["--bpv", 2], ["--gop", 0]]
+)
 def test_options_that_do_not_go_with_a_sequence(npz, tmp_path, words):
     assert bsm("encode", npz, "-o", tmp_path / "a.bsm", *words) != 0
     assert not (tmp_path / "a.bsm").exists()
@@ -230,7 +280,19 @@ def test_options_of_sequences_do_not_go_with_a_mesh(npz, tmp_path, capsys):
 @pytest.mark.long
 def test_live_pipes():
     positions, faces = bending(9)
-    encoding = [sys.executable, "-m", "bsm", "encode", "-", "--format", "npy", "-o", "-", "--low-delay", "1"]
+    encoding = [
+        sys.executable,
+        "-m",
+        "bsm",
+        "encode",
+        "-",
+        "--format",
+        "npy",
+        "-o",
+        "-",
+        "--low-delay",
+        "1",
+    ]
     decoding = [sys.executable, "-m", "bsm", "decode", "-", "-o", "-"]
     pipe = subprocess.PIPE
     with (
@@ -294,7 +356,13 @@ def test_forms_of_the_output():
     given = ("-", None), ("a.npz", None), ("a", None), ("a", "obj")
     assert [sequence_kind(*pair) for pair in given] == ["npy", "npz", "ply", "obj"]
     assert sequence_kind("a.wrl/", None) == sequence_kind("take1.2", None) == "ply"
-    for pair in (("a.ply", None), ("-", "ply"), ("a.npz", "npy"), ("a.gltf", None), ("%04d.wrl", None)):
+    for pair in (
+        ("a.ply", None),
+        ("-", "ply"),
+        ("a.npz", "npy"),
+        ("a.gltf", None),
+        ("%04d.wrl", None),
+    ):
         with pytest.raises(OptionError):
             sequence_kind(*pair)
 
@@ -313,9 +381,14 @@ def test_attributes_that_stay_go_along(tmp_path, capsys):
         frame = TriangleMesh(mesh.positions * (1 + 0.05 * number), mesh.faces, attributes)
         save(frame, tmp_path / "run" / f"{number}.obj")
         heat = Attribute("heat", blink + number)
-        color = Attribute("color", np.full((len(mesh.positions), 3), 7, np.uint8), "vertex", "color")
+        color = Attribute(
+            "color", np.full((len(mesh.positions), 3), 7, np.uint8), "vertex", "color"
+        )
         (tmp_path / "ply").mkdir(exist_ok=True)
-        save(TriangleMesh(frame.positions, mesh.faces, (heat, color)), tmp_path / "ply" / f"{number}.ply")
+        save(
+            TriangleMesh(frame.positions, mesh.faces, (heat, color)),
+            tmp_path / "ply" / f"{number}.ply",
+        )
     assert bsm("encode", tmp_path / "run", "-o", tmp_path / "run.bsm", "--keep-order", *QUICK) == 0
     assert "normal" in capsys.readouterr().err
     assert bsm("decode", tmp_path / "run.bsm", "-o", tmp_path / "out", "--format", "obj", "-q") == 0
@@ -329,7 +402,18 @@ def test_attributes_that_stay_go_along(tmp_path, capsys):
         shown = arrays["corner/texcoord"][arrays["corner/texcoord/indices"]]
         assert np.abs(shown.reshape(-1, 2) - corners).max() < 2e-4
     capsys.readouterr()
-    assert bsm("encode", tmp_path / "ply", "-o", tmp_path / "ply.bsm", "--attribute", "color=5bits", *QUICK) == 0
+    assert (
+        bsm(
+            "encode",
+            tmp_path / "ply",
+            "-o",
+            tmp_path / "ply.bsm",
+            "--attribute",
+            "color=5bits",
+            *QUICK,
+        )
+        == 0
+    )
     assert "heat" in capsys.readouterr().err
     assert run_json("info", tmp_path / "ply.bsm")["attributes"][0]["name"] == "color"
 
@@ -338,13 +422,19 @@ def test_the_program_says_errors_of_frames(tmp_path, capsys):
     walk, faces = bending(5)
     # A face without area once vertices at one position are one: its third vertex is left out.
     n, walk = walk.shape[1], np.concatenate([walk, walk[:, :1], walk[:, :1] + 3.0], axis=1)
-    np.savez(tmp_path / "a.npz", positions=np.concatenate([walk, walk]), faces=[*faces, (0, n, n + 1)])
+    np.savez(
+        tmp_path / "a.npz", positions=np.concatenate([walk, walk]), faces=[*faces, (0, n, n + 1)]
+    )
     assert bsm("encode", tmp_path / "a.npz", "--set", "step=0.002") == 0
     assert "10 frames of " in capsys.readouterr().err
     assert bsm("compare", tmp_path / "a.npz", tmp_path / "a.bsm", "--json") == 0
     found = json.loads(capsys.readouterr().out)
     each = [frame["max_error_relative"] for frame in found["frames"]]
-    assert len(each) == 10 and max(each) == pytest.approx(found["max_error_relative"]) and max(each) < 0.01
+    assert (
+        len(each) == 10
+        and max(each) == pytest.approx(found["max_error_relative"])
+        and max(each) < 0.01
+    )
     assert bsm("compare", tmp_path / "a.npz", tmp_path / "a.bsm") == 0
     printed = capsys.readouterr().out
     assert f"worst_frame        {each.index(max(each))} " in printed

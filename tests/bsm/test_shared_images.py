@@ -65,16 +65,26 @@ ODD = {
     "a folder called like an image": folder_of_that_name,
     "a sparse library": sparse,
     "zeros": lambda folder: write(folder, {**with_material(b"a.png"), "x.mtl": bytes(1 << 16)}),
-    "no spaces": lambda folder: write(folder, {**with_material(b"a.png"), "x.mtl": b"a" * (1 << 16)}),
+    "no spaces": lambda folder: write(
+        folder, {**with_material(b"a.png"), "x.mtl": b"a" * (1 << 16)}
+    ),
     "a NUL": lambda folder: write(folder, with_material(b"a\0b.png")),
     "a NUL in the library": lambda folder: write(folder, with_material(b"a.png", "a\0.mtl")),
     "no UTF-8": lambda folder: write(folder, with_material(b"\xff\xfe.png")),
     "a long name": lambda folder: write(folder, with_material(b"x" * 70000 + b".png")),
     "another folder": lambda folder: write(folder, with_material(b"../secret.png")),
-    "another place": lambda folder: write(folder, with_material(bytes((folder.parent / "secret.png").absolute()))),
-    "a library of another place": lambda folder: write(folder, with_material(b"a.png", "../secret.png")),
-    "a library that is a device": lambda folder: write(folder, with_material(b"a.png", "/dev/zero")),
-    "garbage": lambda folder: write(folder, {"x.ply": np.random.default_rng(0).bytes(5000), "x.png": PNG}),
+    "another place": lambda folder: write(
+        folder, with_material(bytes((folder.parent / "secret.png").absolute()))
+    ),
+    "a library of another place": lambda folder: write(
+        folder, with_material(b"a.png", "../secret.png")
+    ),
+    "a library that is a device": lambda folder: write(
+        folder, with_material(b"a.png", "/dev/zero")
+    ),
+    "garbage": lambda folder: write(
+        folder, {"x.ply": np.random.default_rng(0).bytes(5000), "x.png": PNG}
+    ),
 }
 
 
@@ -93,7 +103,9 @@ def reads(monkeypatch):
 
 @pytest.mark.parametrize("untrusted", [False, True])
 @pytest.mark.parametrize("odd", ODD)
-def test_a_bad_file_is_named_and_the_others_are_encoded(odd, untrusted, tmp_path, monkeypatch, capsys, reads):
+def test_a_bad_file_is_named_and_the_others_are_encoded(
+    odd, untrusted, tmp_path, monkeypatch, capsys, reads
+):
     monkeypatch.chdir(tmp_path)
     if untrusted:
         pytest.importorskip("landlockpy")
@@ -108,9 +120,15 @@ def test_a_bad_file_is_named_and_the_others_are_encoded(odd, untrusted, tmp_path
     said = capsys.readouterr().err
     assert {path.name for path in Path("out/good").iterdir()} == {"a.bsm", "b.bsm"}
     assert [path.read_bytes() for path in Path("out/images").iterdir()] == [PNG]
-    assert "1 image of several meshes" in said and "Traceback" not in said and "unexpected" not in said
-    assert set(reads.values()) <= {1, 2}, "a file is read to find what others have too, and to encode it"
-    odd_one = next(path for path in Path("in").iterdir() if path.suffix in (".obj", ".ply", ".gltf", ".3mf"))
+    assert (
+        "1 image of several meshes" in said and "Traceback" not in said and "unexpected" not in said
+    )
+    assert set(reads.values()) <= {1, 2}, (
+        "a file is read to find what others have too, and to encode it"
+    )
+    odd_one = next(
+        path for path in Path("in").iterdir() if path.suffix in (".obj", ".ply", ".gltf", ".3mf")
+    )
     encoded = main(["encode", str(odd_one), "-o", "alone.bsm", *["--untrusted"][:untrusted]]) == 0
     assert encoded == Path("out", odd_one.with_suffix(".bsm").name).exists()
     if encoded:
@@ -139,7 +157,9 @@ def patterns_of_bytes():
             for node in ast.walk(tree)
             if isinstance(node, ast.Assign)
             for target in node.targets
-            for names, values in [(getattr(target, "elts", [target]), getattr(node.value, "elts", [node.value]))]
+            for names, values in [
+                (getattr(target, "elts", [target]), getattr(node.value, "elts", [node.value]))
+            ]
             for name, call in zip(names, values)
             if isinstance(name, ast.Name)
         }
@@ -158,7 +178,11 @@ def begins_with_many(pattern):
     for branch in [pattern] if pattern[0][0] is not _constants.BRANCH else pattern[0][1][1]:
         operation, given = branch[0]
         may_fail = branch[1:].getwidth()[0] > 0
-        if operation in (_constants.MAX_REPEAT, _constants.MIN_REPEAT) and given[1] > MOST_REPEATS and may_fail:
+        if (
+            operation in (_constants.MAX_REPEAT, _constants.MIN_REPEAT)
+            and given[1] > MOST_REPEATS
+            and may_fail
+        ):
             return True
         if operation is _constants.SUBPATTERN and begins_with_many(given[-1]):
             return True
@@ -169,4 +193,6 @@ def test_no_pattern_over_bytes_begins_anew_at_each():
     found = list(patterns_of_bytes())
     assert len(found) > 15
     assert [row for row in found if not row[2] and begins_with_many(_parser.parse(row[1]))] == []
-    assert begins_with_many(_parser.parse(rb"[^\s]+\.png")) and not begins_with_many(_parser.parse(rb"^[ \t]*v"))
+    assert begins_with_many(_parser.parse(rb"[^\s]+\.png")) and not begins_with_many(
+        _parser.parse(rb"^[ \t]*v")
+    )

@@ -32,7 +32,9 @@ SMOOTH = ball(4000)
 def test_a_smooth_ball_gets_smaller_and_keeps_the_promise(tmp_path):
     path, stream = tmp_path / "ball.ply", tmp_path / "ball.bsm"
     bsm.save(SMOOTH, path)
-    done = process("encode", path, "-o", stream, "--simplify", "--preset", "small", "--json", text=True)
+    done = process(
+        "encode", path, "-o", stream, "--simplify", "--preset", "small", "--json", text=True
+    )
     assert done.returncode == 0, done.stderr
     facts, decoded = json.loads(done.stdout), bsm.decode(stream)
     plain = bsm.encode(path, preset="small")
@@ -43,8 +45,14 @@ def test_a_smooth_ball_gets_smaller_and_keeps_the_promise(tmp_path):
     assert facts["bytes"] < 0.85 * len(plain)
     assert bsm.look(path, stream).distance == pytest.approx(facts["look"])
     assert facts["look"] <= 3.0
-    apart = surface_distance(SMOOTH.positions, SMOOTH.faces, decoded.positions, decoded.faces).hausdorff
-    assert apart <= 1.05 * facts["max_error_relative"] * SMOOTH.diagonal <= 1.05 * 0.02 * SMOOTH.diagonal
+    apart = surface_distance(
+        SMOOTH.positions, SMOOTH.faces, decoded.positions, decoded.faces
+    ).hausdorff
+    assert (
+        apart
+        <= 1.05 * facts["max_error_relative"] * SMOOTH.diagonal
+        <= 1.05 * 0.02 * SMOOTH.diagonal
+    )
     assert bsm.encode(path, preset="small", simplify=True) == stream.read_bytes()
     (row,) = bsm.encode_many([path], tmp_path / "many/", preset="small", simplify=True)
     assert (row["faces"], row["bytes"]) == (facts["faces"], facts["bytes"])
@@ -70,7 +78,11 @@ def test_without_a_look_the_distance_between_surfaces_is_kept():
 def test_vertices_slide_in_the_plane_to_where_they_are_even_and_borders_stay():
     even = np.insert(np.argwhere(np.ones((12, 12))) / 12.0, 2, 0.0, axis=1)
     inside = ((even[:, :2] > 0.01) & (even[:, :2] < 0.9)).all(axis=1)
-    moved = even + inside[:, None] * np.random.default_rng(0).uniform(-0.03, 0.03, even.shape) * [1, 1, 0]
+    moved = even + inside[:, None] * np.random.default_rng(0).uniform(-0.03, 0.03, even.shape) * [
+        1,
+        1,
+        0,
+    ]
     positions, faces, *_, quadrics = collapsed(moved, grid_faces(12, 12), np.zeros(144, bool), 242)
     found = slid(positions, faces, quadrics, 0.1)
     assert np.abs(found[:, 2]).max() < 1e-12 and np.array_equal(found[~inside], even[~inside])
@@ -84,7 +96,12 @@ def test_a_small_part_has_a_bound_of_its_own():
     source = Source(both, bsm.EncodeOptions(contract=bsm.Contract(0.01, by_part=0.01)))
     reach = np.repeat([0.01, 0.001], [4000, 1000]) * both.diagonal
     parts = slice(4000), slice(4000, None)
-    for moved, part in ((0.005, parts[0]), (0.012, parts[0]), (0.0008, parts[1]), (0.0012, parts[1])):
+    for moved, part in (
+        (0.005, parts[0]),
+        (0.012, parts[0]),
+        (0.0008, parts[1]),
+        (0.0012, parts[1]),
+    ):
         positions = both.positions.copy()
         positions[part, 1] += moved * both.diagonal
         other, bound = bsm.TriangleMesh(positions, both.faces), 0.001 if part.start else 0.01
@@ -143,7 +160,9 @@ def test_seams_and_other_attributes_are_refused():
 
 def test_sequences_and_permutations_are_refused(tmp_path):
     bsm.save(torus(), tmp_path / "a.ply")
-    order = program("encode", tmp_path / "a.ply", "--simplify", "--permutation", tmp_path / "p.npy", text=True)
+    order = program(
+        "encode", tmp_path / "a.ply", "--simplify", "--permutation", tmp_path / "p.npy", text=True
+    )
     assert order.returncode == 2 and "--permutation orders all vertices" in order.stderr
     with pytest.raises(bsm.ArgumentError, match="simplify is for single meshes"):
         bsm.encode_sequence(np.array([torus().positions] * 2), torus().faces, simplify=True)
@@ -152,7 +171,9 @@ def test_sequences_and_permutations_are_refused(tmp_path):
 @pytest.mark.filterwarnings("ignore:no look is promised")
 def test_a_mesh_without_area_keeps_its_faces():
     for width, options in ((0, {"simplify": True}), (0, {"size": 1000}), (1, {"simplify": True})):
-        flat = bsm.TriangleMesh(np.arange(4)[:, None] * [width, 0, 0], np.array([[0, 1, 2], [1, 2, 3]]))
+        flat = bsm.TriangleMesh(
+            np.arange(4)[:, None] * [width, 0, 0], np.array([[0, 1, 2], [1, 2, 3]])
+        )
         assert len(bsm.decode(bsm.encode(flat, **options)).faces) == 2
 
 
@@ -161,11 +182,15 @@ def test_meshes_of_different_faces_are_compared_as_surfaces(tmp_path):
     bsm.save(together(torus(30, 20)), tmp_path / "b.ply")
     done = program("compare", tmp_path / "a.ply", tmp_path / "b.ply", text=True)
     assert done.returncode == 3 and "bsm compare --look --surface" in done.stderr
-    done = program("compare", tmp_path / "a.ply", tmp_path / "b.ply", "--surface", "--json", text=True)
+    done = program(
+        "compare", tmp_path / "a.ply", tmp_path / "b.ply", "--surface", "--json", text=True
+    )
     a, b = (bsm.load(tmp_path / name) for name in ("a.ply", "b.ply"))
     expected = surface_distance(a.positions, a.faces, b.positions, b.faces)
     assert json.loads(done.stdout)["hausdorff"] == expected.hausdorff
     assert "vertices are not compared: the meshes have different faces" in done.stderr
     bsm.save(bsm.TriangleMesh(1e150 * torus().positions, torus().faces), tmp_path / "b.ply")
-    done = program("compare", tmp_path / "a.ply", tmp_path / "b.ply", "--surface", "--json", text=True)
+    done = program(
+        "compare", tmp_path / "a.ply", tmp_path / "b.ply", "--surface", "--json", text=True
+    )
     assert done.returncode == 3 and "e+150 from the origin" in done.stderr

@@ -27,7 +27,9 @@ def source(tmp_path):
 
 
 def tile(source, output, *more, run=bsm):
-    return run("tile", source, "-o", output, "--grid-cell", CELL, "--triangles", 300, *more, text=True)
+    return run(
+        "tile", source, "-o", output, "--grid-cell", CELL, "--triangles", 300, *more, text=True
+    )
 
 
 def holding(folder):
@@ -37,7 +39,9 @@ def holding(folder):
         "import sys; from pathlib import Path; from bsm.tiles.work import held\n"
         f"with held(Path({str(folder)!r}), False): print('held', flush=True); sys.stdin.read()"
     )
-    other = subprocess.Popen([sys.executable, "-c", code], stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+    other = subprocess.Popen(
+        [sys.executable, "-c", code], stdin=subprocess.PIPE, stdout=subprocess.PIPE
+    )
     assert other.stdout.readline() == b"held\n"
     return other
 
@@ -48,7 +52,9 @@ def test_a_second_run_says_who_holds_the_folder_and_changes_nothing(source, tmp_
     with holding(tmp_path / "out") as other:
         second = tile(source, tmp_path / "out", *option)
         assert second.returncode == 9
-        assert f"process {other.pid} on '{socket.gethostname()}' works in this folder" in second.stderr
+        assert (
+            f"process {other.pid} on '{socket.gethostname()}' works in this folder" in second.stderr
+        )
         assert [path.name for path in (tmp_path / "out").iterdir()] == [LOCK]
         third = tile(source, tmp_path / "else", "--work", tmp_path / "out")
         assert third.returncode == 9 and str(other.pid) in third.stderr
@@ -64,7 +70,8 @@ def test_a_run_that_died_is_taken_over_when_asked(source, tmp_path):
         other.communicate()
     refused = tile(source, tmp_path / "out")
     assert (
-        refused.returncode == 9 and "left this folder unfinished; --resume continues, -f starts again" in refused.stderr
+        refused.returncode == 9
+        and "left this folder unfinished; --resume continues, -f starts again" in refused.stderr
     )
     assert tile(source, tmp_path / "out", "--resume").returncode == 0
 
@@ -73,7 +80,14 @@ def test_unfinished_tiles_are_not_begun_anew_without_being_asked(source, tmp_pat
     assert tile(source, tmp_path / "out").returncode == 0
     path = tmp_path / "out" / "manifest.json"
     unfinished = json.dumps(
-        {"format": "bsm tiles", "version": 1, "stream": 1, "source": "a", "complete": False, "levels": []}
+        {
+            "format": "bsm tiles",
+            "version": 1,
+            "stream": 1,
+            "source": "a",
+            "complete": False,
+            "levels": [],
+        }
     )
     path.write_text(unfinished)
     (tmp_path / "out" / ".work").mkdir()
@@ -114,7 +128,9 @@ def test_a_manifest_stays_until_the_input_was_read(source, tmp_path, option):
     assert not (tmp_path / "new" / "manifest.json").exists()
 
 
-@pytest.mark.parametrize("words", [("--grid-cell", "0"), ("--grid-cell", "nan"), ("--grid-cell", "1e-30")])
+@pytest.mark.parametrize(
+    "words", [("--grid-cell", "0"), ("--grid-cell", "nan"), ("--grid-cell", "1e-30")]
+)
 def test_what_is_refused_leaves_nothing_behind(source, tmp_path, words):
     assert tile(source, tmp_path / "out", *words).returncode == 2
     (tmp_path / "empty.ply").touch()
@@ -123,7 +139,12 @@ def test_what_is_refused_leaves_nothing_behind(source, tmp_path, words):
     for output in ("out", "own"):
         refused = tile(tmp_path / "empty.ply", tmp_path / output, "--work", tmp_path / "work")
         assert refused.returncode == 3 and "empty" in refused.stderr
-    assert sorted(path.name for path in tmp_path.rglob("*")) == ["empty.ply", source.name, "own", "thesis.txt"]
+    assert sorted(path.name for path in tmp_path.rglob("*")) == [
+        "empty.ply",
+        source.name,
+        "own",
+        "thesis.txt",
+    ]
 
 
 @pytest.mark.parametrize(
@@ -131,7 +152,12 @@ def test_what_is_refused_leaves_nothing_behind(source, tmp_path, words):
     [
         *((LOCK, target) for target in ("precious", "new", None)),
         *(("manifest.json", target) for target in ("precious", None)),
-        *((".work", ""), (".work/plan.json", "precious"), (".work/positions", "new"), ("00000.tiles", "precious")),
+        *(
+            (".work", ""),
+            (".work/plan.json", "precious"),
+            (".work/positions", "new"),
+            ("00000.tiles", "precious"),
+        ),
     ],
 )
 def test_links_in_a_folder_of_others_are_not_written_through(source, tmp_path, name, target):
@@ -162,8 +188,12 @@ def test_tilesets_are_not_written_through_links(source, tmp_path):
     assert refused.returncode == 2 and "glb is a symbolic link" in refused.stderr
     (output / "glb").unlink()
     assert tile(source, output, "-f", "--tileset").returncode == 0
-    assert {*os.listdir(output)} == {"tileset.json", "glb"} and not (output / "tileset.json").is_symlink()
-    assert [path.name for path in kept.iterdir()] == ["precious"] and (kept / "precious").read_text() == "precious"
+    assert {*os.listdir(output)} == {"tileset.json", "glb"} and not (
+        output / "tileset.json"
+    ).is_symlink()
+    assert [path.name for path in kept.iterdir()] == ["precious"] and (
+        kept / "precious"
+    ).read_text() == "precious"
 
 
 @pytest.mark.slow
@@ -171,27 +201,51 @@ def test_a_run_that_is_killed_anywhere_goes_on_to_the_same_tiles(source, tmp_pat
     """With all its processes, at ten places; `--resume` and `-f` end with the files of a run that was left alone."""
 
     def files_of(folder):
-        return {path.relative_to(folder): path.read_bytes() for path in sorted(folder.rglob("*")) if path.is_file()}
+        return {
+            path.relative_to(folder): path.read_bytes()
+            for path in sorted(folder.rglob("*"))
+            if path.is_file()
+        }
 
-    words = [sys.executable, "-m", "bsm", "tile", source, "--triangles", "100", "--grid-cell", str(CELL), "-j", "2"]
+    words = [
+        sys.executable,
+        "-m",
+        "bsm",
+        "tile",
+        source,
+        "--triangles",
+        "100",
+        "--grid-cell",
+        str(CELL),
+        "-j",
+        "2",
+    ]
     begin = time.monotonic()
     subprocess.run([*words, "-o", tmp_path / "alone"], check=True, capture_output=True)
     seconds, expected = time.monotonic() - begin, files_of(tmp_path / "alone")
     random = np.random.default_rng(8)
     for trial, share in enumerate(random.uniform(0.1, 1.0, 10)):
         output = tmp_path / f"out{trial}"
-        run = subprocess.Popen([*words, "-o", output], stderr=subprocess.DEVNULL, start_new_session=True)
+        run = subprocess.Popen(
+            [*words, "-o", output], stderr=subprocess.DEVNULL, start_new_session=True
+        )
         time.sleep(share * seconds)
         with suppress(ProcessLookupError):
             os.killpg(run.pid, signal.SIGKILL)
         run.wait()
         left = files_of(output) if output.exists() else {}
-        if any(left.values()) and set(left) != set(expected):  # a lock with nothing in it: killed before it began
-            refused = subprocess.run([*words, "-o", output], capture_output=True, text=True, check=False)
+        # A lock with nothing in it: killed before it began.
+        if any(left.values()) and set(left) != set(expected):
+            refused = subprocess.run(
+                [*words, "-o", output], capture_output=True, text=True, check=False
+            )
             assert refused.returncode == 9 and "--resume" in refused.stderr, refused.stderr
-        finished = output.exists() and set(files_of(output)) == set(expected)  # before it was killed
+        # Before it was killed.
+        finished = output.exists() and set(files_of(output)) == set(expected)
         flag = "-f" if finished or trial % 2 else "--resume"
-        done = subprocess.run([*words, "-o", output, flag], capture_output=True, text=True, check=False)
+        done = subprocess.run(
+            [*words, "-o", output, flag], capture_output=True, text=True, check=False
+        )
         assert done.returncode == 0, done.stderr
         assert files_of(output) == expected
 
@@ -211,4 +265,8 @@ def test_a_run_that_was_killed_after_its_manifest_can_be_resumed(source, tmp_pat
 def test_a_folder_that_is_read_only_is_named(source, tmp_path):
     (tmp_path / "out").mkdir(mode=0o555)
     refused = tile(source, tmp_path / "out")
-    assert refused.returncode == 9 and "out" in refused.stderr and not any((tmp_path / "out").iterdir())
+    assert (
+        refused.returncode == 9
+        and "out" in refused.stderr
+        and not any((tmp_path / "out").iterdir())
+    )

@@ -310,7 +310,15 @@ def pristine(tmp_path_factory):
     """A folder with a mesh in several formats, a sequence, streams of both, and files that are none."""
     folder = tmp_path_factory.mktemp("first")
     mesh, write = torus(12, 8), folder.joinpath
-    for name in ("ring.ply", "ring2.ply", "ring.obj", "ring.glb", "old.bsm", "streams/old.bsm", "scans/a.ply"):
+    for name in (
+        "ring.ply",
+        "ring2.ply",
+        "ring.obj",
+        "ring.glb",
+        "old.bsm",
+        "streams/old.bsm",
+        "scans/a.ply",
+    ):
         write(name).parent.mkdir(exist_ok=True)
         bsm.save(mesh, write(name))
     bsm.save(torus(9, 7), write("scans/b.obj"))
@@ -358,8 +366,15 @@ def test_it_does_what_was_meant(folder, words, made):
 
 def test_what_only_exact_positions_keep_is_kept_with_a_note(folder, capsys):
     assert run("encode", "ring.ply", "--theta", "1e-9") == 0
-    assert "ring.ply: positions are exact: no coarser ones keep the promise" in capsys.readouterr().err
-    assert (bsm.load("ring.bsm").positions[:, None] == bsm.load("ring.ply").positions).all(axis=2).any(axis=1).all()
+    assert (
+        "ring.ply: positions are exact: no coarser ones keep the promise" in capsys.readouterr().err
+    )
+    assert (
+        (bsm.load("ring.bsm").positions[:, None] == bsm.load("ring.ply").positions)
+        .all(axis=2)
+        .any(axis=1)
+        .all()
+    )
 
 
 @pytest.mark.parametrize("row", lines(ADVICE), ids=" | ".join)
@@ -369,10 +384,14 @@ def test_it_says_what_to_type(folder, capsys, row):
     assert ended == int(code[0]) if code else ended not in (0, 1)
     shown = capsys.readouterr()
     said, *more = shown.err.splitlines()
-    assert said.startswith(("bsm", "{")) and re.search(re.escape(advice), said, re.IGNORECASE), shown.err
+    assert said.startswith(("bsm", "{")) and re.search(re.escape(advice), said, re.IGNORECASE), (
+        shown.err
+    )
     assert all(line.startswith("usage: bsm") and "--help" in line for line in more), shown.err
     assert not shown.out and "Traceback" not in shown.err and "utf-8" not in said
     made = [path for path in folder.rglob("*") if path not in before and path.is_file()]
     assert not made
     for command in filter(None, said.partition(" Run: ")[2].split("; ")):
-        assert run(*shlex.split(command.removeprefix("then "))[1:]) in (0, 8, 9), "no advice, file or library"
+        assert run(*shlex.split(command.removeprefix("then "))[1:]) in (0, 8, 9), (
+            "no advice, file or library"
+        )

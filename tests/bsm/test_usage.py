@@ -102,25 +102,36 @@ def test_compare_says_which_file_is_wrong(tmp_path, capsys):
     (tmp_path / "b.off").write_text("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n")
     for words in (["a.off", "b.off"], ["b.off", "a.off"]):
         assert main(["compare", *(str(tmp_path / word) for word in words)]) == 3
-        assert capsys.readouterr().err.startswith(f"bsm: {tmp_path / 'b.off'}: a face refers to vertex 7")
+        assert capsys.readouterr().err.startswith(
+            f"bsm: {tmp_path / 'b.off'}: a face refers to vertex 7"
+        )
 
 
 def test_bash_completes_options_and_files(tmp_path):
     (tmp_path / "mesh.ply").touch()
     script = (SHARE / "bash-completion/completions/bsm").read_text("utf-8")
-    for words, found in (("encode --the", "--theta"), ("encode me", "mesh.ply"), ("decode -o me", "mesh.ply")):
+    for words, found in (
+        ("encode --the", "--theta"),
+        ("encode me", "mesh.ply"),
+        ("decode -o me", "mesh.ply"),
+    ):
         word = words.split()[-1]
         script += f"\nCOMP_WORDS=(bsm {words}); COMP_CWORD={len(words.split())}"
         script += f"; _shtab_bsm bsm {word} x; echo ${{COMPREPLY[@]}} = {found}\n"
-    done = subprocess.run(["bash"], input=script, capture_output=True, text=True, timeout=60, check=True, cwd=tmp_path)
-    assert all(got == wanted for got, wanted in (line.split(" = ") for line in done.stdout.splitlines()))
+    done = subprocess.run(
+        ["bash"], input=script, capture_output=True, text=True, timeout=60, check=True, cwd=tmp_path
+    )
+    assert all(
+        got == wanted for got, wanted in (line.split(" = ") for line in done.stdout.splitlines())
+    )
     assert len(done.stdout.splitlines()) == 3
 
 
 def test_manual_pages_and_completion_are_current():
     """`python -m tools.manuals` makes them."""
     completion = [
-        (SHARE / name).read_text("utf-8") for name in ("bash-completion/completions/bsm", "zsh/site-functions/_bsm")
+        (SHARE / name).read_text("utf-8")
+        for name in ("bash-completion/completions/bsm", "zsh/site-functions/_bsm")
     ]
     pages = {path.stem: path.read_text("utf-8") for path in (SHARE / "man/man1").iterdir()}
     assert pages.keys() == {"bsm", *(f"bsm-{name}" for name in COMMANDS)}
@@ -139,12 +150,19 @@ def test_manual_pages_and_completion_are_current():
         assert set(named.values()) == helps
         options = {option for action in actions for option in action.option_strings}
         assert {
-            word for key in named if key.startswith("-") for word in re.findall(r"(?<![\w-])--?[a-z][\w-]*", key)
+            word
+            for key in named
+            if key.startswith("-")
+            for word in re.findall(r"(?<![\w-])--?[a-z][\w-]*", key)
         } == options
         assert all(option in text for option in options for text in completion)
         choices = [" ".join(map(str, action.choices)) for action in actions if action.choices]
         assert all(f"({some})" in text for some in choices for text in completion)
-        shown = [",".join(map(str, action.choices)) for action in actions if action.choices and not action.metavar]
+        shown = [
+            ",".join(map(str, action.choices))
+            for action in actions
+            if action.choices and not action.metavar
+        ]
         assert all(f"{{{some}}}" in page for some in shown)
 
 
@@ -195,7 +213,10 @@ def test_a_dry_run_reports_and_writes_nothing(tmp_path, capsys):
     shown = capsys.readouterr()
     assert "look 0." in shown.err and "0 of" not in shown.err and "of 1" in shown.err
     assert json.loads(shown.out)["bytes"] > 100
-    assert main(["encode", str(tmp_path / "a.npz"), "--dry-run", "--report", str(tmp_path / "r.json")]) == 2
+    assert (
+        main(["encode", str(tmp_path / "a.npz"), "--dry-run", "--report", str(tmp_path / "r.json")])
+        == 2
+    )
     assert [path.name for path in tmp_path.iterdir()] == ["a.npz"]
 
 
@@ -209,9 +230,17 @@ MESH = torus()
 
 
 def test_what_is_printed_fits_a_line():
-    painted = bsm.TriangleMesh(MESH.positions, MESH.faces, (bsm.Attribute("heat", np.arange(len(MESH.positions))),))
-    assert repr(painted) == f"TriangleMesh({len(MESH.positions)} vertices, {len(MESH.faces)} faces, heat)"
-    assert repr(painted.attributes[0]) == f"Attribute('heat', {len(MESH.positions)} x 1 int32 per vertex, generic)"
+    painted = bsm.TriangleMesh(
+        MESH.positions, MESH.faces, (bsm.Attribute("heat", np.arange(len(MESH.positions))),)
+    )
+    assert (
+        repr(painted)
+        == f"TriangleMesh({len(MESH.positions)} vertices, {len(MESH.faces)} faces, heat)"
+    )
+    assert (
+        repr(painted.attributes[0])
+        == f"Attribute('heat', {len(MESH.positions)} x 1 int32 per vertex, generic)"
+    )
     assert repr(bsm.Limits()) == "Limits()" and repr(bsm.Limits(work=3.0)) == "Limits(work=3.0)"
     for name in ("decode", "load", "decode_sequence", "read_mesh"):
         assert len(str(inspect.signature(getattr(bsm, name)))) < 400, name
@@ -222,7 +251,15 @@ def test_what_is_printed_fits_a_line():
 
 @pytest.mark.parametrize(
     ("text", "count"),
-    [("20kB", 20e3), ("20k", 20e3), ("1.5MiB", 1.5 * 2**20), ("900 B", 900), ("1e4", 1e4), (700, 700), ("2 MB", 2e6)],
+    [
+        ("20kB", 20e3),
+        ("20k", 20e3),
+        ("1.5MiB", 1.5 * 2**20),
+        ("900 B", 900),
+        ("1e4", 1e4),
+        (700, 700),
+        ("2 MB", 2e6),
+    ],
 )
 def test_sizes_are_read(text, count):
     assert parse_bytes("size", text) == count
@@ -248,7 +285,10 @@ def test_a_tree_is_mirrored(tmp_path, capsys):
     assert main(["encode", str(tree / "top.stl"), "-r"]) == 2
     bsm.save(MESH, tree / "scan_1/mesh.off")
     assert main(["encode", str(tree), "-o", str(tmp_path / "new"), "-r", "-q", "--grid", "8"]) == 0
-    assert {path.name for path in (tmp_path / "new/scan_1").iterdir()} == {"mesh.ply.bsm", "mesh.off.bsm"}
+    assert {path.name for path in (tmp_path / "new/scan_1").iterdir()} == {
+        "mesh.ply.bsm",
+        "mesh.off.bsm",
+    }
     (tmp_path / "empty").mkdir()
     assert main(["encode", str(tmp_path / "empty"), "-r"]) == 2
     errors = capsys.readouterr().err
@@ -276,8 +316,12 @@ def test_a_map_shows_where_vertices_are_off(tmp_path, capsys):
     words = ["compare", str(tmp_path / "a.ply"), str(tmp_path / "b.ply"), "--map"]
     for name in ("map.ply", "map.obj"):
         assert main([*words, str(tmp_path / name)]) == 0
-        color = next(a for a in bsm.load(tmp_path / name).attributes if a.semantic == "color").values
-        assert color[0, 0] > color[0, 2] and color[-1, 2] > color[-1, 0], "red where it moved, blue where not"
+        color = next(
+            a for a in bsm.load(tmp_path / name).attributes if a.semantic == "color"
+        ).values
+        assert color[0, 0] > color[0, 2] and color[-1, 2] > color[-1, 0], (
+            "red where it moved, blue where not"
+        )
     distance = next(a for a in bsm.load(tmp_path / "map.ply").attributes if a.name == "distance")
     np.testing.assert_allclose(distance.values[[0, -1], 0], [0.25, 0], atol=1e-6)
     assert main([*words, str(tmp_path / "map.png")]) == 0
@@ -289,9 +333,15 @@ def test_a_map_shows_where_vertices_are_off(tmp_path, capsys):
 
 def test_obj_has_colors_that_every_reader_takes(tmp_path, capsys):
     rgba = np.tile(np.array([[255, 0, 51, 128]], np.uint8), (len(MESH.positions), 1))
-    mesh = bsm.TriangleMesh(MESH.positions, MESH.faces, (bsm.Attribute("color", rgba, semantic="color"),))
+    mesh = bsm.TriangleMesh(
+        MESH.positions, MESH.faces, (bsm.Attribute("color", rgba, semantic="color"),)
+    )
     assert bsm.save(mesh, tmp_path / "a.obj") == ("alpha of color",)
-    rows = [line.split() for line in (tmp_path / "a.obj").read_text().splitlines() if line.startswith("v ")]
+    rows = [
+        line.split()
+        for line in (tmp_path / "a.obj").read_text().splitlines()
+        if line.startswith("v ")
+    ]
     assert {len(row) for row in rows} == {7} and rows[0][4:] == ["1", "0", "0.2"]
 
 
@@ -303,7 +353,9 @@ def loop(tmp_path_factory):
     waves = np.sin(3.0 * MESH.positions[None, :, 2:] + angles[:, None, None])
     frames = MESH.positions + 0.1 * waves * [1.0, 0.0, 0.0]
     np.savez(tmp_path / "loop.npz", positions=frames, faces=MESH.faces)
-    (tmp_path / "loop.bsm").write_bytes(bsm.encode_sequence(frames, MESH.faces, preset="near-lossless"))
+    (tmp_path / "loop.bsm").write_bytes(
+        bsm.encode_sequence(frames, MESH.faces, preset="near-lossless")
+    )
     return tmp_path
 
 
@@ -317,7 +369,12 @@ def test_the_errors_of_frames_are_drawn_as_a_curve(loop, capsys):
 
 @pytest.mark.parametrize(
     ("given", "expected"),
-    [(Length(0.05, True), (0.05, True)), ("0.1%", (0.001, False)), (" 2e-3 ", (0.002, False)), (0.5, (0.5, False))],
+    [
+        (Length(0.05, True), (0.05, True)),
+        ("0.1%", (0.001, False)),
+        (" 2e-3 ", (0.002, False)),
+        (0.5, (0.5, False)),
+    ],
 )
 def test_lengths(given, expected):
     assert parse_length("gap", given) == expected
@@ -346,13 +403,17 @@ def test_units_are_one_table():
 
 
 @pytest.mark.parametrize(
-    ("unit", "words"), [("milimeter", "mean millimeter"), ("parsec", "known are nm"), ("imch", "mean inch"), (7, "7")]
+    ("unit", "words"),
+    [("milimeter", "mean millimeter"), ("parsec", "known are nm"), ("imch", "mean inch"), (7, "7")],
 )
 def test_an_unknown_unit_is_an_error(unit, words, tmp_path):
     with pytest.raises(UnitError, match=words):
         known_unit(unit, "here")
     mesh, frames = torus(8, 7), np.array([torus(8, 7).positions] * 2)
-    for wish in ({"metadata": {"unit": unit}}, {"max_error": f"2{unit}", "metadata": {"unit": "mm"}}):
+    for wish in (
+        {"metadata": {"unit": unit}},
+        {"max_error": f"2{unit}", "metadata": {"unit": "mm"}},
+    ):
         if unit != 7 or "max_error" not in wish:
             for door in (
                 lambda wish: bsm.encode(mesh, **wish),
@@ -361,7 +422,9 @@ def test_an_unknown_unit_is_an_error(unit, words, tmp_path):
             ):
                 with pytest.raises(UnitError, match=words):
                     door(wish)
-    bsm.save(bsm.TriangleMesh(mesh.positions, mesh.faces, (), {"unit": "furlong"}), tmp_path / "a.ply")
+    bsm.save(
+        bsm.TriangleMesh(mesh.positions, mesh.faces, (), {"unit": "furlong"}), tmp_path / "a.ply"
+    )
     result = program("encode", tmp_path / "a.ply", "--max-error", "2mm")
     assert result.returncode == 2 and "unknown unit 'furlong'" in result.stderr
     result = program("encode", tmp_path / "a.ply")
@@ -379,10 +442,22 @@ def test_a_length_with_a_unit_needs_a_mesh_that_has_one(metadata):
 def test_another_unit_is_converted(tmp_path):
     mesh, metadata = torus(8, 7), {"unit": "meters"}
     assert in_own_unit({"max_error": "0.05mm"}, metadata) == {"max_error": Length(5e-05, True)}
-    own, other = (bsm.encode(mesh, metadata=metadata, max_error=text) for text in ("0.05meters", "50mm"))
+    own, other = (
+        bsm.encode(mesh, metadata=metadata, max_error=text) for text in ("0.05meters", "50mm")
+    )
     assert own == other
     bsm.save(mesh, tmp_path / "a.ply")
-    words = ("encode", tmp_path / "a.ply", "-q", "-f", "-o", tmp_path / "a.bsm", "--meta", "unit=cm", "--max-error")
+    words = (
+        "encode",
+        tmp_path / "a.ply",
+        "-q",
+        "-f",
+        "-o",
+        tmp_path / "a.bsm",
+        "--meta",
+        "unit=cm",
+        "--max-error",
+    )
     assert program(*words, "0.01in").returncode == 0
     inches = (tmp_path / "a.bsm").read_bytes()
     assert program(*words, "0.0254cm").returncode == 0

@@ -69,7 +69,9 @@ def test_a_missing_image_is_told_from_a_damaged_one(
     assert image.name in (answer := capsys.readouterr().err) and "missing" in answer
 
 
-def test_decode_info_and_load_use_the_same_words(archive: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_decode_info_and_load_use_the_same_words(
+    archive: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     image = image_of(archive)
     damage(image)
     assert main(["decode", "streams/a.bsm", "-o", "a.glb"]) == 0
@@ -80,7 +82,9 @@ def test_decode_info_and_load_use_the_same_words(archive: Path, capsys: pytest.C
         bsm.load("streams/a.bsm")
 
 
-def test_a_report_finds_missing_and_damaged_outputs(archive: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_report_finds_missing_and_damaged_outputs(
+    archive: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     Path("streams/a.bsm").unlink()
     assert main(["verify", "run.json"]) == MISSING
     assert "streams/a.bsm: the output is missing" in capsys.readouterr().err
@@ -91,7 +95,10 @@ def test_a_report_finds_missing_and_damaged_outputs(archive: Path, capsys: pytes
 
 
 def test_a_report_that_moved_with_its_folder_finds_its_outputs(
-    archive: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    archive: Path,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
 ) -> None:
     Path("run.json").rename("streams/run.json")
     Path("streams").rename("moved")
@@ -104,9 +111,13 @@ def test_a_report_that_moved_with_its_folder_finds_its_outputs(
     assert main(["verify", "-r", str(archive / "moved")]) == MISSING
 
 
-def test_inputs_that_failed_are_not_there(archive: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_inputs_that_failed_are_not_there(
+    archive: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     Path("source/c.obj").write_text("nonsense")
-    assert main(["encode", "-q", "-f", "-r", "source", "-o", "streams", "--report", "run.json"]) == 3
+    assert (
+        main(["encode", "-q", "-f", "-r", "source", "-o", "streams", "--report", "run.json"]) == 3
+    )
     capsys.readouterr()
     assert main(["verify", "run.json"]) == MISSING
     assert "streams/c.bsm: it was not written" in capsys.readouterr().err
@@ -122,13 +133,19 @@ def test_other_json_files_are_no_reports(archive: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    "words", [["encode", "-f", "-q", "-r", "source", "-o", "streams"], ["compare", "-r", "source", "streams"]]
+    "words",
+    [
+        ["encode", "-f", "-q", "-r", "source", "-o", "streams"],
+        ["compare", "-r", "source", "streams"],
+    ],
 )
 def test_reports_have_the_format_of_their_suffix(archive: Path, words: list[str]) -> None:
     for kind in ("json", "csv", "html"):
         assert main([*words, "--report", f"out.{kind}"]) == 0
     names = {"source/a.obj", "source/b.obj"}
-    assert {result["input"] for result in json.loads(Path("out.json").read_text())["files"]} == names
+    assert {
+        result["input"] for result in json.loads(Path("out.json").read_text())["files"]
+    } == names
     with Path("out.csv").open(newline="") as file:
         rows = list(csv.DictReader(file))
     assert {row["input"] for row in rows} == names
@@ -141,14 +158,18 @@ def test_reports_have_the_format_of_their_suffix(archive: Path, words: list[str]
 
 def test_a_page_of_results_lists_failures_first_and_writes_names_as_text(archive: Path) -> None:
     Path("source/<b>.obj").write_text("nonsense")
-    assert main(["encode", "-f", "-q", "-r", "source", "-o", "streams", "--report", "out.html"]) == 3
+    assert (
+        main(["encode", "-f", "-q", "-r", "source", "-o", "streams", "--report", "out.html"]) == 3
+    )
     page = PageText()
     page.feed(Path("out.html").read_text(encoding="utf-8"))
     rows = [word for word in page.words if word.startswith("source/") and word.endswith(".obj")]
     assert rows == ["source/<b>.obj", "source/a.obj", "source/b.obj"]
 
 
-def test_a_table_of_results_has_no_formulas(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_table_of_results_has_no_formulas(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.chdir(tmp_path)
     bsm.save(torus(8, 6), "=1+1.ply")
     assert main(["encode", "-q", "=1+1.ply", "--report", "out.csv"]) == 0
@@ -156,7 +177,10 @@ def test_a_table_of_results_has_no_formulas(tmp_path: Path, monkeypatch: pytest.
 
 
 def test_a_report_that_is_no_json_cannot_be_resumed(archive: Path) -> None:
-    assert main(["encode", "-q", "-r", "source", "-o", "streams", "--report", "run.csv", "--resume"]) == 2
+    assert (
+        main(["encode", "-q", "-r", "source", "-o", "streams", "--report", "run.csv", "--resume"])
+        == 2
+    )
 
 
 def test_a_folder_of_streams_is_a_page(archive: Path) -> None:

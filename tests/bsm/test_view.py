@@ -71,7 +71,12 @@ def serving(*content: Any) -> Iterator[PageServer]:
 def viewed(*words: str, source: int | None = None) -> Iterator[str]:
     """The address that `bsm view` prints, in a process of its own."""
     command = [sys.executable, "-m", "bsm", "view", "--no-open", *words]
-    quiet: Any = {"stdin": source, "stdout": subprocess.PIPE, "stderr": subprocess.DEVNULL, "text": True}
+    quiet: Any = {
+        "stdin": source,
+        "stdout": subprocess.PIPE,
+        "stderr": subprocess.DEVNULL,
+        "text": True,
+    }
     with subprocess.Popen(command, cwd=ROOT, **quiet) as server:
         try:
             assert server.stdout
@@ -90,7 +95,9 @@ def test_saved_page_holds_the_streams(tmp_path):
     stream = tmp_path / "<script>.bsm"
     shutil.copy(VECTORS / "good-chain.bsm", stream)
     page = tmp_path / "page.html"
-    assert main(["view", str(stream), str(VECTORS / "good-tetrahedron.bsm"), "--save", str(page)]) == 0
+    assert (
+        main(["view", str(stream), str(VECTORS / "good-tetrahedron.bsm"), "--save", str(page)]) == 0
+    )
     first, second = listed(page.read_text("utf-8"))
     assert first["name"] == stream.name and second["name"] == "good-tetrahedron.bsm"
     assert base64.b64decode(first["layers"][0]["data"]) == stream.read_bytes()
@@ -103,10 +110,16 @@ def test_meshes_are_encoded_and_shown_beside_their_original(tmp_path, capsys):
     (entry,) = listed(page.read_text("utf-8"))
     first, ours = entry["layers"][:2]
     stream = base64.b64decode(ours["data"])
-    assert entry["main"] == 1 and ours["title"] == "BSM" and stream == bsm.encode(source, preset="fine")
+    assert (
+        entry["main"] == 1
+        and ours["title"] == "BSM"
+        and stream == bsm.encode(source, preset="fine")
+    )
     assert first["size"] == source.stat().st_size
     exact = bsm.decode(base64.b64decode(first["data"]))
-    assert sorted(map(tuple, exact.positions)) == sorted(map(tuple, mesh.positions.astype(np.float32).astype(float)))
+    assert sorted(map(tuple, exact.positions)) == sorted(
+        map(tuple, mesh.positions.astype(np.float32).astype(float))
+    )
     assert entry["facts"]["promised"] == {"look": 0.5, "farthest": 0.005}
     assert entry["facts"]["look"] <= 0.5 and 0.0 < entry["facts"]["farthest"] <= 0.005
     assert f"{len(stream)} bytes as a stream" in capsys.readouterr().err
@@ -130,7 +143,9 @@ def test_scenes_of_ours_are_shown_as_they_are_and_not_encoded_again(tmp_path, ca
     shown, decoded = bsm.decode(base64.b64decode(layer["data"])), bsm.load(plain)
     assert sorted(map(tuple, shown.positions)) == sorted(map(tuple, decoded.positions))
     *_, content = uploaded([("small.glb", small.read_bytes())], "small")
-    assert [each.title for each in content.layers] == ["GLB"] and content.layers[0].size == layer["size"]
+    assert [each.title for each in content.layers] == ["GLB"] and content.layers[0].size == layer[
+        "size"
+    ]
 
 
 def test_a_scene_that_wraps_a_sequence_is_shown_by_its_own_stream(tmp_path):
@@ -145,9 +160,16 @@ def test_a_scene_that_wraps_a_sequence_is_shown_by_its_own_stream(tmp_path):
 
 @pytest.mark.parametrize(
     ("scale", "offset"),
-    [(1.0, (500123.0, 4649776.0, 1600.0)), (1e-3, (2e7, 0.0, -3e7)), (1e29, (0.0, 0.0, 0.0)), (1e-41, (0.0, 0.0, 0.0))],
+    [
+        (1.0, (500123.0, 4649776.0, 1600.0)),
+        (1e-3, (2e7, 0.0, -3e7)),
+        (1e29, (0.0, 0.0, 0.0)),
+        (1e-41, (0.0, 0.0, 0.0)),
+    ],
 )
-def test_what_encode_takes_is_shown_beside_an_original_finer_than_single_precision(scale, offset, tmp_path):
+def test_what_encode_takes_is_shown_beside_an_original_finer_than_single_precision(
+    scale, offset, tmp_path
+):
     mesh = torus()
     mesh = replace(mesh, positions=mesh.positions * scale + offset)
     content = compared("far", bsm.encode(mesh), mesh)
@@ -181,7 +203,10 @@ def test_crease_angle_is_told_to_every_page(tmp_path, capsys):
 @pytest.mark.parametrize("angle", ["-1", "180.5", "nan"])
 def test_crease_angles_without_a_meaning_are_refused(angle, tmp_path, capsys):
     stream = str(VECTORS / "good-chain.bsm")
-    assert main(["view", stream, f"--crease-angle={angle}", "--save", str(tmp_path / "page.html")]) == 2
+    assert (
+        main(["view", stream, f"--crease-angle={angle}", "--save", str(tmp_path / "page.html")])
+        == 2
+    )
     assert "the crease angle must be from 0" in capsys.readouterr().err
 
 
@@ -206,7 +231,11 @@ def test_server_has_the_page_and_its_streams():
         entries = listed(page)
         assert [entry["name"] for entry in entries] == ["good-chain.bsm", "good-chain.bsm (2)"]
         assert "AGFzbQ" not in page and int(answer.headers["Content-Length"]) == len(page.encode())
-        for path, accepted, packed in (("", "br, gzip", True), ("", "gzip;q=0", False), ("grid.wasm", "gzip", True)):
+        for path, accepted, packed in (
+            ("", "br, gzip", True),
+            ("", "gzip;q=0", False),
+            ("grid.wasm", "gzip", True),
+        ):
             request = urllib.request.Request(address + path, headers={"Accept-Encoding": accepted})
             answer = urllib.request.urlopen(request)
             data = answer.read()
@@ -214,12 +243,21 @@ def test_server_has_the_page_and_its_streams():
             assert len(data) == int(answer.headers["Content-Length"])
             data = gzip.decompress(data) if packed else data
             assert data == ((WEB / "built" / path).read_bytes() if path else page.encode())
-        assert urllib.request.urlopen(address + entries[1]["layers"][0]["url"]).read() == stream.read_bytes()
+        assert (
+            urllib.request.urlopen(address + entries[1]["layers"][0]["url"]).read()
+            == stream.read_bytes()
+        )
         with pytest.raises(urllib.error.HTTPError, match="404"):
             urllib.request.urlopen(address + "2")
         elsewhere = urllib.request.Request(address, headers={"Host": "example.org"})
         root = address[: address.index("/", 8) + 1]
-        for strange in (elsewhere, root, f"{root}0", f"{root}%C3%A4/", address.rstrip("/")[:-1] + "/"):
+        for strange in (
+            elsewhere,
+            root,
+            f"{root}0",
+            f"{root}%C3%A4/",
+            address.rstrip("/")[:-1] + "/",
+        ):
             with pytest.raises(urllib.error.HTTPError, match="403"):
                 urllib.request.urlopen(strange)
 
@@ -246,7 +284,11 @@ def test_late_joiners_enter_at_the_run_of_a_mesh_of_its_own():
     kept = faces[(positions[0][faces, 2] > 0.0).all(axis=1)]
     half, few = np.unique(kept, return_inverse=True)
     small, few = positions[:, half], few.reshape(-1, 3).astype(np.int32)
-    meshes = [bsm.TriangleMesh(p.astype(float), f) for ps, f in ((positions, faces), (small, few)) for p in ps]
+    meshes = [
+        bsm.TriangleMesh(p.astype(float), f)
+        for ps, f in ((positions, faces), (small, few))
+        for p in ps
+    ]
     whole = bsm.encode_frames(meshes, frame_rate=12, step=0.002)
     growing = Arrival("halves.bsm")
     growing.take(whole[:-1])
@@ -303,9 +345,13 @@ def test_a_file_that_is_begun_again_has_ended(tmp_path):
 def test_command_line_of_the_browser_has_no_token(tmp_path):
     (folder := tmp_path / os.fsdecode(b'a b#?%20"\xff')).mkdir()
     browser = tmp_path / "browser"
-    browser.write_text(f'#!/bin/sh\necho "$1" > {tmp_path}/asked\ncp -p "$TMPDIR"/*/view.html {tmp_path}\n')
+    browser.write_text(
+        f'#!/bin/sh\necho "$1" > {tmp_path}/asked\ncp -p "$TMPDIR"/*/view.html {tmp_path}\n'
+    )
     browser.chmod(0o700)
-    code = "from bsm.viewer.page import in_browser\nwith in_browser('http://127.0.0.1:1/token/'): pass"
+    code = (
+        "from bsm.viewer.page import in_browser\nwith in_browser('http://127.0.0.1:1/token/'): pass"
+    )
     variables = {**os.environ, "BROWSER": f"{browser} %s", "TMPDIR": str(folder)}
     subprocess.run([sys.executable, "-c", code], env=variables, check=True)
     asked = (tmp_path / "asked").read_text().strip()
@@ -316,7 +362,9 @@ def test_command_line_of_the_browser_has_no_token(tmp_path):
     assert not list(folder.iterdir())
 
 
-@pytest.mark.parametrize("more", [("--save", "page.html"), ("--original", "ball.ply"), ("--follow",)])
+@pytest.mark.parametrize(
+    "more", [("--save", "page.html"), ("--original", "ball.ply"), ("--follow",)]
+)
 def test_what_grows_and_tiles_are_looked_at_alone(tmp_path, capsys, more):
     if more != ("--follow",):
         assert main(["view", "--follow", str(VECTORS / "good-chain.bsm"), *more]) == 2
@@ -340,7 +388,12 @@ def test_what_is_still_being_written_is_watched(way, tmp_path):
     if source is not None:
         os.write(source, whole[:first])
     with viewed(*inputs, source=source) as address:
-        live = {"address": address, "whole": str(stream), "growing": str(growing), "ends": frame_ends(whole)[-4:]}
+        live = {
+            "address": address,
+            "whole": str(stream),
+            "growing": str(growing),
+            "ends": frame_ends(whole)[-4:],
+        }
         javascript("live", BSM_LIVE=json.dumps(live))
     if source is not None:
         os.close(source)
@@ -349,12 +402,30 @@ def test_what_is_still_being_written_is_watched(way, tmp_path):
 def test_tiles_are_files_of_a_page_for_any_server(tmp_path):
     bsm.save(torus(30, 20), tmp_path / "a.ply")
     folder, site = tmp_path / "tiles", tmp_path / "site"
-    assert main(["tile", str(tmp_path / "a.ply"), "-o", str(folder), "--grid-cell", "0.01", "--triangles", "400"]) == 0
+    assert (
+        main(
+            [
+                "tile",
+                str(tmp_path / "a.ply"),
+                "-o",
+                str(folder),
+                "--grid-cell",
+                "0.01",
+                "--triangles",
+                "400",
+            ]
+        )
+        == 0
+    )
     assert main(["view", str(folder), "--static", str(site)]) == 0
     assert '"tiles": "0"' in (site / "index.html").read_text()
     shards = [path.name for path in folder.glob("*.tiles")]
-    assert shards and all((site / "0" / name).read_bytes() == (folder / name).read_bytes() for name in shards)
-    assert json.loads((site / "0/manifest.json").read_text()) == json.loads((folder / "manifest.json").read_text())
+    assert shards and all(
+        (site / "0" / name).read_bytes() == (folder / name).read_bytes() for name in shards
+    )
+    assert json.loads((site / "0/manifest.json").read_text()) == json.loads(
+        (folder / "manifest.json").read_text()
+    )
 
 
 @pytest.mark.slow
@@ -370,7 +441,12 @@ def test_tiles_are_seen_coarse_first_and_fine_from_near(tmp_path):
         assert main(["untile", str(folder), "-o", tileset, "--content", content]) == 0
     levels = bsm.open_tiles(str(folder)).manifest["levels"]
     with viewed(str(folder)) as address:
-        seen = {"address": address, "folder": str(folder), "coarsest": levels[0]["faces"], "faces": 120_000}
+        seen = {
+            "address": address,
+            "folder": str(folder),
+            "coarsest": levels[0]["faces"],
+            "faces": 120_000,
+        }
         javascript("tiles", BSM_TILES=json.dumps(seen))
 
 
@@ -389,21 +465,31 @@ def test_files_are_sent_by_ranges(tmp_path, asked, code):
     (tmp_path / "a").write_bytes(b"0123456789abcdef")
     files = {"manifest.json": b"{}", "a": Ranged(str(tmp_path), "a", 16)}
     with serving(Tiled("some", files)) as server:
-        request = urllib.request.Request(f"{server.address}0/a", headers={"Range": asked} if asked else {})
+        request = urllib.request.Request(
+            f"{server.address}0/a", headers={"Range": asked} if asked else {}
+        )
         try:
             with urllib.request.urlopen(request) as answer:
                 assert (answer.status, answer.read()) == (code, b"0123456789")
         except urllib.error.HTTPError as error:
             assert error.code == code
         (tmp_path / "a").unlink()
-        with pytest.raises(urllib.error.HTTPError, match="No such file" if code == 206 else str(code)):
+        with pytest.raises(
+            urllib.error.HTTPError, match="No such file" if code == 206 else str(code)
+        ):
             urllib.request.urlopen(request)
 
 
 def javascript(tests: str, **environment: str) -> None:
     command = ["node", "scripts/test.mjs", tests]
     run = subprocess.run(
-        command, cwd=WEB, env=os.environ | environment, capture_output=True, text=True, timeout=300, check=False
+        command,
+        cwd=WEB,
+        env=os.environ | environment,
+        capture_output=True,
+        text=True,
+        timeout=300,
+        check=False,
     )
     assert run.returncode == 0, run.stdout + run.stderr
 
@@ -418,7 +504,17 @@ def test_any_two_inputs_are_compared_as_they_are(tmp_path):
     def shown(which: str, original: str) -> dict[str, Any]:
         page = tmp_path / "page.html"
         assert (
-            main(["view", str(tmp_path / which), "--original", str(tmp_path / original), "-f", "--save", str(page)])
+            main(
+                [
+                    "view",
+                    str(tmp_path / which),
+                    "--original",
+                    str(tmp_path / original),
+                    "-f",
+                    "--save",
+                    str(page),
+                ]
+            )
             == 0
         )
         (entry,) = listed(page.read_text("utf-8"))
@@ -428,10 +524,18 @@ def test_any_two_inputs_are_compared_as_they_are(tmp_path):
     two = shown("b.bsm", "a.bsm")
     assert base64.b64decode(two["layers"][0]["data"]) == (tmp_path / "a.bsm").read_bytes()
     there = bsm.compare(bsm.decode(tmp_path / "a.bsm"), tmp_path / "b.bsm")
-    assert two["facts"]["farthest"] == pytest.approx(there.max_error_relative, rel=1e-3) and "apart" not in two["facts"]
-    assert two["facts"]["angle"] == pytest.approx(there.angle_deg, rel=1e-3) and "promised" not in two["facts"]
+    assert (
+        two["facts"]["farthest"] == pytest.approx(there.max_error_relative, rel=1e-3)
+        and "apart" not in two["facts"]
+    )
+    assert (
+        two["facts"]["angle"] == pytest.approx(there.angle_deg, rel=1e-3)
+        and "promised" not in two["facts"]
+    )
     off = np.frombuffer(base64.b64decode(two["layers"][1]["off"]["data"]), "<f4")
-    assert (off.max(), np.sqrt(np.mean(off**2))) == pytest.approx((there.max_error, there.rms), rel=1e-3)
+    assert (off.max(), np.sqrt(np.mean(off**2))) == pytest.approx(
+        (there.max_error, there.rms), rel=1e-3
+    )
     apart = shown("b.obj", "a.ply")
     assert [layer["title"] for layer in apart["layers"]] == ["Original", "OBJ"]
     assert [layer["size"] for layer in apart["layers"]] == [
@@ -440,7 +544,10 @@ def test_any_two_inputs_are_compared_as_they_are(tmp_path):
     facts = apart["facts"]
     assert facts["before"] == [len(mesh.positions), len(mesh.faces)] and "angle" not in facts
     off = np.frombuffer(base64.b64decode(apart["layers"][1]["off"]["data"]), "<f4")
-    assert len(off) == len(other.positions) and 0.0 < off.max() <= facts["farthest"] * facts["diagonal"] * 1.001
+    assert (
+        len(off) == len(other.positions)
+        and 0.0 < off.max() <= facts["farthest"] * facts["diagonal"] * 1.001
+    )
     tree = np.linalg.norm(other.positions[:, None] - mesh.positions[None], axis=2).min(axis=1)
     assert off.max() <= tree.max() and 0.0 < facts["apart"] < facts["farthest"]
 
@@ -455,17 +562,23 @@ def test_two_sequences_have_errors_of_vertices_in_each_frame(tmp_path):
     (entry,) = listed(page.read_text("utf-8"))
     first, second = entry["layers"]
     off = np.frombuffer(base64.b64decode(second["off"]["data"]), "<f4").reshape(12, -1)
-    assert off.max(axis=1) / entry["facts"]["diagonal"] == pytest.approx(entry["facts"]["errors"], rel=1e-3)
+    assert off.max(axis=1) / entry["facts"]["diagonal"] == pytest.approx(
+        entry["facts"]["errors"], rel=1e-3
+    )
     carried, _ = bsm.decode_sequence(base64.b64decode(first["data"]))
     decoded, _ = bsm.decode_sequence(base64.b64decode(second["data"]))
-    assert np.linalg.norm(carried - decoded, axis=2) == pytest.approx(off, abs=1e-3 * entry["facts"]["diagonal"])
+    assert np.linalg.norm(carried - decoded, axis=2) == pytest.approx(
+        off, abs=1e-3 * entry["facts"]["diagonal"]
+    )
     fewer = faces[:-40]
     used, index = np.unique(fewer, return_inverse=True)
     cut = {"positions": positions[:, used], "faces": index.reshape(-1, 3).astype(np.int32)}
     np.savez(tmp_path / "b.npz", **cut)
     assert main(["view", str(tmp_path / "b.npz"), *arguments, "-f"]) == 0
     (entry,) = listed(page.read_text("utf-8"))
-    assert entry["facts"]["farthest"] == max(entry["facts"]["errors"]) > entry["facts"]["apart"] >= 0.0
+    assert (
+        entry["facts"]["farthest"] == max(entry["facts"]["errors"]) > entry["facts"]["apart"] >= 0.0
+    )
 
 
 def test_draco_beside_it_has_as_many_bytes_and_needs_more_for_the_look():
@@ -511,10 +624,26 @@ def test_notes_are_the_same_in_the_shell_in_python_and_in_the_page(tmp_path, cap
     )
     assert entry["facts"]["less"]
     bsm.save(bsm.decode(tmp_path / "lined.bsm"), tmp_path / "other.ply")
-    assert main(["view", str(tmp_path / "other.ply"), "--original", str(path), "--save", str(page), "-f"]) == 0
+    assert (
+        main(
+            [
+                "view",
+                str(tmp_path / "other.ply"),
+                "--original",
+                str(path),
+                "--save",
+                str(page),
+                "-f",
+            ]
+        )
+        == 0
+    )
     (entry,) = listed(page.read_text("utf-8"))
     said = capsys.readouterr().err
-    assert entry["facts"]["notes"] == [f"lined.obj: {note}" for note in notes] and entry["facts"]["less"]
+    assert (
+        entry["facts"]["notes"] == [f"lined.obj: {note}" for note in notes]
+        and entry["facts"]["less"]
+    )
     assert all(note in said for note in entry["facts"]["notes"])
 
 
@@ -524,7 +653,11 @@ def test_two_files_that_are_sent_are_compared(tmp_path):
     given, stream = (tmp_path / "a.ply").read_bytes(), bsm.encode(mesh, preset="small")
     expected = compared("b.bsm", stream, bsm.load(tmp_path / "a.ply"), size=len(given))
     with serving() as server:
-        ours = {"Host": server.host, "Origin": f"http://{server.host}", "Content-Length": str(len(given + stream))}
+        ours = {
+            "Host": server.host,
+            "Origin": f"http://{server.host}",
+            "Content-Length": str(len(given + stream)),
+        }
         query = f"?preset=small&name=a.ply&size={len(given)}&name=b.bsm&size={len(stream)}"
         answer = sent(server, ours, given + stream, query)
         entry = json.loads(answer.splitlines()[-1])["entry"]
@@ -532,12 +665,18 @@ def test_two_files_that_are_sent_are_compared(tmp_path):
         shown = [(layer["title"], layer["detail"], layer["size"]) for layer in entry["layers"][:2]]
         assert shown == [("Original", "a.ply", len(given)), ("BSM", "b.bsm", len(stream))]
         assert urllib.request.urlopen(server.address + entry["layers"][1]["url"]).read() == stream
-        assert b" 411 " in sent(server, ours, query=query.replace("size=", "size=-")).splitlines()[0]
+        assert (
+            b" 411 " in sent(server, ours, query=query.replace("size=", "size=-")).splitlines()[0]
+        )
         swapped = f"?preset=small&name=a.ply&size=9&name=b.bsm&size={len(given + stream) - 9}"
-        assert [*json.loads(sent(server, ours, given + stream, swapped).splitlines()[-1])] == ["error"]
+        assert [*json.loads(sent(server, ours, given + stream, swapped).splitlines()[-1])] == [
+            "error"
+        ]
     frames, faces = bending(5)
     np.savez(tmp_path / "sway.npz", positions=frames, faces=faces)
-    *_, mixed = uploaded([("sway.npz", (tmp_path / "sway.npz").read_bytes()), ("b.bsm", stream)], "small")
+    *_, mixed = uploaded(
+        [("sway.npz", (tmp_path / "sway.npz").read_bytes()), ("b.bsm", stream)], "small"
+    )
     assert "both" in mixed["error"]
 
 
@@ -549,21 +688,33 @@ def test_files_that_belong_together_are_read_together():
     png = base64.b64decode(
         "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mNkYPhfDwAChwGA60e6kgAAAABJRU5ErkJggg=="
     )
-    sides = [("shop/looks/a.mtl", b"newmtl red\nmap_Kd p.png\n"), ("shop/looks/p.png", png), ("shop/notes.txt", b"")]
+    sides = [
+        ("shop/looks/a.mtl", b"newmtl red\nmap_Kd p.png\n"),
+        ("shop/looks/p.png", png),
+        ("shop/notes.txt", b""),
+    ]
     *_, whole = uploaded([("shop/a.obj", obj), *sides], "small")
     assert isinstance(whole, Content) and whole.name == "a.obj"
-    assert bsm.decode(whole.layers[1].stream).metadata["image.0.data"] == png and not whole.facts["less"]
+    assert (
+        bsm.decode(whole.layers[1].stream).metadata["image.0.data"] == png
+        and not whole.facts["less"]
+    )
     files = {"used": ["a.obj", "a.mtl", "p.png"], "missing": [], "unused": ["notes.txt"]}
     assert {what: whole.facts[what] for what in files} == files
     assert whole.facts["attributes"]["texcoord"]["max_error"] == 0.0
     *_, lone = uploaded([("a.obj", obj), ("../../a.txt", b"")], "small")
-    assert isinstance(lone, Content) and "image.0.data" not in bsm.decode(lone.layers[1].stream).metadata
+    assert (
+        isinstance(lone, Content)
+        and "image.0.data" not in bsm.decode(lone.layers[1].stream).metadata
+    )
     assert lone.facts["missing"] == ["looks/a.mtl"]
 
 
 def test_frames_that_are_dropped_are_a_sequence(tmp_path):
     for name, count, paths, unused in sequences_to_drop(tmp_path):
-        *_, content = uploaded([(Path(path).name, Path(path).read_bytes()) for path in reversed(paths)], "small")
+        *_, content = uploaded(
+            [(Path(path).name, Path(path).read_bytes()) for path in reversed(paths)], "small"
+        )
         assert isinstance(content, Content) and content.name.partition("_")[0] == name
         assert len(bsm.decode_sequence(content.layers[1].stream)[0]) == count
         assert (content.facts["unused"], content.facts["missing"]) == ([unused], [])
@@ -573,7 +724,11 @@ def test_an_upload_is_encoded_in_a_process_of_its_own(tmp_path):
     bsm.save(torus(), tmp_path / "ball.ply")
     data = (tmp_path / "ball.ply").read_bytes()
     *before, content = uploaded([("../../ball.ply", data)], "small")
-    assert isinstance(content, Content) and content.name == "ball.ply" and content.facts["preset"] == "small"
+    assert (
+        isinstance(content, Content)
+        and content.name == "ball.ply"
+        and content.facts["preset"] == "small"
+    )
     assert content.layers[1].stream == bsm.encode(tmp_path / "ball.ply", preset="small")
     shares = [report["share"] for report in before]
     assert shares == sorted(shares) and len({report["stage"] for report in before}) > 2
@@ -590,7 +745,12 @@ def test_an_upload_ends_with_its_page(tmp_path):
     assert not process.is_alive()
 
 
-def sent(server: PageServer, head: dict[str, str], body: bytes = b"", query: str = "?preset=small&name=a.ply") -> bytes:
+def sent(
+    server: PageServer,
+    head: dict[str, str],
+    body: bytes = b"",
+    query: str = "?preset=small&name=a.ply",
+) -> bytes:
     """What a server answers to an upload."""
     lines = [
         f"POST /{server.token}{UPLOAD}{query} HTTP/1.0",
@@ -608,7 +768,11 @@ def test_uploads_come_from_this_page_alone_and_one_at_a_time(tmp_path, monkeypat
     bsm.save(torus(), tmp_path / "ball.ply")
     data = (tmp_path / "ball.ply").read_bytes()
     with serving() as server:
-        ours = {"Host": server.host, "Origin": f"http://{server.host}", "Content-Length": str(len(data))}
+        ours = {
+            "Host": server.host,
+            "Origin": f"http://{server.host}",
+            "Content-Length": str(len(data)),
+        }
         for changes, code in (
             ({"Origin": "http://example.org"}, 403),
             ({"Origin": "null"}, 403),
@@ -617,16 +781,24 @@ def test_uploads_come_from_this_page_alone_and_one_at_a_time(tmp_path, monkeypat
             ({"Content-Length": "-1"}, 411),
         ):
             assert f" {code} ".encode() in sent(server, ours | changes).splitlines()[0]
-        assert b" 403 " in sent(server, {name: text for name, text in ours.items() if name != "Origin"}).splitlines()[0]
+        assert (
+            b" 403 "
+            in sent(
+                server, {name: text for name, text in ours.items() if name != "Origin"}
+            ).splitlines()[0]
+        )
         assert b" 404 " in sent(server, ours, query="?preset=../etc").splitlines()[0]
         with server.encoding:
             assert b" 503 " in sent(server, ours, data).splitlines()[0]
-        answer = sent(server, ours, data, f"?preset=small&size={len(data)}&name=a.ply")  # as the page asks
+        # As the page asks.
+        answer = sent(server, ours, data, f"?preset=small&size={len(data)}&name=a.ply")
         lines = [json.loads(line) for line in answer.partition(b"\r\n\r\n")[2].splitlines()]
         paths = [layer["url"] for layer in lines[-1]["entry"]["layers"]]
         stream = urllib.request.urlopen(server.address + paths[1]).read()
         assert stream == bsm.encode(tmp_path / "ball.ply", preset="small")
-        assert "error" in json.loads(sent(server, ours | {"Content-Length": "9"}, b"no mesh, ").splitlines()[-1])
+        assert "error" in json.loads(
+            sent(server, ours | {"Content-Length": "9"}, b"no mesh, ").splitlines()[-1]
+        )
 
 
 def test_an_upload_that_arrives_slowly_keeps_no_other_one_waiting(tmp_path, monkeypatch):
@@ -635,7 +807,10 @@ def test_an_upload_that_arrives_slowly_keeps_no_other_one_waiting(tmp_path, monk
     data = (tmp_path / "ball.ply").read_bytes()
     with serving() as server:
         ours = {"Host": server.host, "Origin": f"http://{server.host}"}
-        head = [f"POST /{server.token}{UPLOAD}?preset=small&name=a.ply HTTP/1.0", "Content-Length: 1000"]
+        head = [
+            f"POST /{server.token}{UPLOAD}?preset=small&name=a.ply HTTP/1.0",
+            "Content-Length: 1000",
+        ]
         lines = [*head, *(f"{name}: {text}" for name, text in ours.items()), "", "ply"]
         slow = [socket.create_connection(server.server_address) for _ in range(3)]
         for page in slow:
@@ -662,8 +837,15 @@ def sequences_to_drop(folder: Path) -> list[list[Any]]:
     frames = [folder / f"sway_{number}.ply" for number in range(8, 14)]
     for path, frame in zip(frames, positions, strict=True):
         bsm.save(bsm.TriangleMesh(frame.astype(float), faces), path)
-    groups = {"sway": frames, "leap.glb": [folder / "leap.glb"], "sway.pc2": [folder / "sway.pc2", folder / "sway.obj"]}
-    return [[name, 6, [*map(str, paths), f"{folder}/notes.txt"], "notes.txt"] for name, paths in groups.items()]
+    groups = {
+        "sway": frames,
+        "leap.glb": [folder / "leap.glb"],
+        "sway.pc2": [folder / "sway.pc2", folder / "sway.obj"],
+    }
+    return [
+        [name, 6, [*map(str, paths), f"{folder}/notes.txt"], "notes.txt"]
+        for name, paths in groups.items()
+    ]
 
 
 def pairs_to_drop(folder: Path, mesh: bsm.TriangleMesh, source: Path) -> list[list[Any]]:
@@ -694,7 +876,9 @@ def test_a_page_of_files_shows_its_mesh_and_encodes_in_browsers(tmp_path):
     name = "<img src=x onerror=alert(1)>.bsm"
     (tmp_path / name).write_bytes(bsm.encode(mesh))
     assert main(["view", str(tmp_path / name), "--static", str(tmp_path / "site")]) == 0
-    assert main(["view", str(tmp_path / name), "--static", str(tmp_path / "site")]) == 9, "nothing is replaced"
+    assert main(["view", str(tmp_path / name), "--static", str(tmp_path / "site")]) == 9, (
+        "nothing is replaced"
+    )
     red = np.repeat(np.array([[255, 100, 7]], np.uint8), len(mesh.positions), 0)
     colored = replace(mesh, attributes=(bsm.Attribute("color", red, semantic="color"),))
     files = [tmp_path / f"{suffix}.{suffix}" for suffix in ("ply", "obj", "stl", "glb")]
@@ -716,18 +900,30 @@ def test_a_page_of_files_shows_its_mesh_and_encodes_in_browsers(tmp_path):
         javascript("static", BSM_STATIC=json.dumps(given))
         server.shutdown()
     for name, frames, *_ in given["moving"]:
-        facts = compared(name, (folder / f"{name}.bsm").read_bytes(), sequence_in(str(tmp_path / "sway.npz"))).facts
-        assert len(facts["errors"]) == frames and 0.0 < facts["farthest"] < (1e-4 if name == "sway" else 5e-3)
+        facts = compared(
+            name, (folder / f"{name}.bsm").read_bytes(), sequence_in(str(tmp_path / "sway.npz"))
+        ).facts
+        assert len(facts["errors"]) == frames and 0.0 < facts["farthest"] < (
+            1e-4 if name == "sway" else 5e-3
+        )
     for path in files:
         decoded = bsm.decode(folder / f"{path.name}.bsm")
         there = bsm.compare(path, decoded)
-        assert len(decoded.positions) == len(mesh.positions) and 0.0 < there.max_error_relative < 1e-4, path.name
+        assert (
+            len(decoded.positions) == len(mesh.positions) and 0.0 < there.max_error_relative < 1e-4
+        ), path.name
         if path.suffix in (".ply", ".glb"):
             (ours, theirs) = (
-                next(attribute.values[:, :3] for attribute in each.attributes if attribute.name == "color")
+                next(
+                    attribute.values[:, :3]
+                    for attribute in each.attributes
+                    if attribute.name == "color"
+                )
                 for each in (decoded, bsm.decode(bsm.encode(path)))
             )
-            assert {*map(tuple, ours)} == {*map(tuple, theirs)} and (path.suffix == ".glb" or (ours == red[0]).all())
+            assert {*map(tuple, ours)} == {*map(tuple, theirs)} and (
+                path.suffix == ".glb" or (ours == red[0]).all()
+            )
 
 
 @pytest.mark.slow
@@ -744,7 +940,12 @@ def test_a_mesh_that_is_dropped_is_encoded_and_shown(tmp_path):
     pairs = [
         [first[0][::-1], "pair.bsm", *first[1:]],
         [last[0], "other.obj", last[1], 100 * still.facts["farthest"]],
-        [[str(moving), str(tmp_path / "sway.npz")], "sway.bsm", first[1], 100 * content.facts["farthest"]],
+        [
+            [str(moving), str(tmp_path / "sway.npz")],
+            "sway.bsm",
+            first[1],
+            100 * content.facts["farthest"],
+        ],
     ]
     with serving() as server:
         given = {"address": server.address, "mesh": str(tmp_path / "ball.ply"), "pairs": pairs}
@@ -754,7 +955,9 @@ def test_a_mesh_that_is_dropped_is_encoded_and_shown(tmp_path):
 @pytest.mark.slow
 @needs_packages
 def test_a_foreign_page_reads_and_encodes_nothing():
-    with serving(Content("a.bsm", (Shown("BSM", "", 1, (VECTORS / "good-keys.bsm").read_bytes()),))) as server:
+    with serving(
+        Content("a.bsm", (Shown("BSM", "", 1, (VECTORS / "good-keys.bsm").read_bytes()),))
+    ) as server:
         javascript("foreign", BSM_FOREIGN=server.address)
         assert not [path for path in server.content if path.startswith(UPLOAD)]
 
@@ -787,19 +990,31 @@ def test_sequences_are_encoded_and_compared_frame_by_frame(tmp_path, capsys):
     stream.write_bytes(base64.b64decode(entry["layers"][1]["data"]))
     capsys.readouterr()
     assert main(["compare", str(tmp_path / "sway.npz"), str(stream), "--json"]) == 0
-    expected = [frame["max_error_relative"] for frame in json.loads(capsys.readouterr().out)["frames"]]
+    expected = [
+        frame["max_error_relative"] for frame in json.loads(capsys.readouterr().out)["frames"]
+    ]
     facts = entry["facts"]
     assert main(["compare", str(tmp_path / "sway.npz"), str(stream), "--json", "--look"]) == 0
     worst = json.loads(capsys.readouterr().out)["look_worst"]
-    assert facts["look"] == pytest.approx(worst, rel=1e-6) and facts["drawn"] == 7, "so few frames are all drawn"
-    assert 0 < facts["look"] <= facts["promised"]["look"] == 1 and facts["promised"]["farthest"] == 0.01
-    assert facts["errors"] == pytest.approx(expected) and facts["farthest"] == max(facts["errors"]) > 0
+    assert facts["look"] == pytest.approx(worst, rel=1e-6) and facts["drawn"] == 7, (
+        "so few frames are all drawn"
+    )
+    assert (
+        0 < facts["look"] <= facts["promised"]["look"] == 1
+        and facts["promised"]["farthest"] == 0.01
+    )
+    assert (
+        facts["errors"] == pytest.approx(expected) and facts["farthest"] == max(facts["errors"]) > 0
+    )
     original = str(tmp_path / "sway_%d.ply")
     assert main(["view", str(stream), "--original", original, "--save", str(page), "-f"]) == 0
     assert listed(page.read_text("utf-8"))[0]["facts"]["errors"] == pytest.approx(expected)
     np.savez(tmp_path / "short.npz", positions=frames[:5], faces=faces)
     unused = str(tmp_path / "unused.html")
-    assert main(["view", str(stream), "--original", str(tmp_path / "short.npz"), "--save", unused]) != 0
+    assert (
+        main(["view", str(stream), "--original", str(tmp_path / "short.npz"), "--save", unused])
+        != 0
+    )
     assert "7 frames, and its original has 5" in capsys.readouterr().err
 
 
@@ -838,7 +1053,10 @@ def essence(event: Any) -> list[Any]:
             frames = event.frames
             return ["loss", event.block, frames.start, len(frames), type(event.error).__name__]
         case bsm.EndEvent():
-            return ["end", *(sorted(map(int, part)) for part in (event.losses.missing, event.losses.degraded))]
+            return [
+                "end",
+                *(sorted(map(int, part)) for part in (event.losses.missing, event.losses.degraded)),
+            ]
     return [type(event).__name__.removesuffix("Event").lower()]
 
 

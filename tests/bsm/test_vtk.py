@@ -23,7 +23,9 @@ def stream(tmp_path_factory):
     corners = positions[0][faces][:, :, :2].reshape(-1, 2).astype(np.float32)
     uv = Attribute("texcoord", corners, "corner", "texcoord")
     path = tmp_path_factory.mktemp("vtk") / "a.bsm"
-    path.write_bytes(bsm.encode_sequence(positions, faces, mesh_attributes=[uv], frame_rate=25, gop=3))
+    path.write_bytes(
+        bsm.encode_sequence(positions, faces, mesh_attributes=[uv], frame_rate=25, gop=3)
+    )
     return path
 
 
@@ -46,7 +48,9 @@ def test_a_pipeline_of_vtk_has_times(stream):
     assert steps == pytest.approx(np.arange(7) / 25)
     for number in (0, 1, 5, 2, 6):
         source.UpdateTimeStep(number / 25)
-        assert np.array_equal(corners_of(source.GetOutputDataObject(0)), decoded[number][faces.reshape(-1)])
+        assert np.array_equal(
+            corners_of(source.GetOutputDataObject(0)), decoded[number][faces.reshape(-1)]
+        )
     assert source.GetOutputDataObject(0).GetPointData().GetTCoords().GetName() == "texcoord"
 
 
@@ -73,7 +77,9 @@ def test_a_reader_for_pyvista(stream):
         reader.set_active_time_point(number)
         assert reader.active_time_value == number / 25
         shown = reader.read()
-        assert np.allclose(shown.points[shown.regular_faces.reshape(-1)], decoded[number][faces.reshape(-1)])
+        assert np.allclose(
+            shown.points[shown.regular_faces.reshape(-1)], decoded[number][faces.reshape(-1)]
+        )
     assert np.allclose(reader.at(0.121).points, reader.at(3 / 25).points)
     with pytest.raises(OptionError):
         reader.set_active_time_point(7)
@@ -98,7 +104,9 @@ def test_the_plug_in_tells_paraview_what_it_needs(stream, monkeypatch):
     for name in ("paraview", "paraview.util"):
         monkeypatch.setitem(sys.modules, name, types.ModuleType(name))
     monkeypatch.setitem(sys.modules, "paraview.util.vtkAlgorithm", library)
-    spec = importlib.util.spec_from_file_location("bsm_paraview", ROOT / "plugins" / "paraview" / "bsm_paraview.py")
+    spec = importlib.util.spec_from_file_location(
+        "bsm_paraview", ROOT / "plugins" / "paraview" / "bsm_paraview.py"
+    )
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     assert times["reader"]["extensions"] == "bsm" and times["stringvector"]["name"] == "FileName"

@@ -17,7 +17,9 @@ from tests.motion import sequence_in
 from tests.shapes import torus
 
 MESH = torus(16, 12)
-TEXTURE = bsm.Attribute("texcoord", np.random.default_rng(1).random((16 * 12, 2), np.float32), "vertex", "texcoord")
+TEXTURE = bsm.Attribute(
+    "texcoord", np.random.default_rng(1).random((16 * 12, 2), np.float32), "vertex", "texcoord"
+)
 LOOSE = {"look": 50}  # so that the bound on vertices counts
 WISHES = {
     "nothing": {},
@@ -47,7 +49,9 @@ def words(wish):
         if name == "metadata":
             yield from (word for entry in value.items() for word in ("--meta", "=".join(entry)))
         elif name == "attributes":
-            yield from (word for entry in value.items() for word in ("--attribute", "=".join(entry)))
+            yield from (
+                word for entry in value.items() for word in ("--attribute", "=".join(entry))
+            )
         else:
             yield from (option,) if value is True else (option, str(value))
 
@@ -59,7 +63,11 @@ def folder(tmp_path_factory):
     from PIL import Image
 
     Image.new("RGB", (512, 256)).save(path / "skin.png")
-    entries = {"unit": "mm", "image.0.name": "skin.png", "image.0.data": (path / "skin.png").read_bytes()}
+    entries = {
+        "unit": "mm",
+        "image.0.name": "skin.png",
+        "image.0.data": (path / "skin.png").read_bytes(),
+    }
     bsm.save(bsm.TriangleMesh(MESH.positions, MESH.faces, (TEXTURE,), entries), path / "ring.ply")
     bsm.save(bsm.TriangleMesh(MESH.positions, MESH.faces, (), {"unit": "mm"}), path / "bare.ply")
     bsm.save(bsm.TriangleMesh(MESH.positions, MESH.faces), path / "plain.glb")
@@ -67,7 +75,10 @@ def folder(tmp_path_factory):
     (path / "frames").mkdir()
     for number in range(4):
         moved = MESH.positions * (1.0, 1.0, 1.0 + 0.1 * number)
-        bsm.save(bsm.TriangleMesh(moved, MESH.faces, (TEXTURE,), {"unit": "mm"}), path / "frames" / f"{number}.ply")
+        bsm.save(
+            bsm.TriangleMesh(moved, MESH.faces, (TEXTURE,), {"unit": "mm"}),
+            path / "frames" / f"{number}.ply",
+        )
     return path
 
 
@@ -111,7 +122,15 @@ def by_command_of_frames(folder, wish):
 
 
 def by_batch(folder, wish):
-    run("encode", folder / "again.ply", folder / "ring.ply", "-o", f"{folder}/many/", "-f", *words(wish))
+    run(
+        "encode",
+        folder / "again.ply",
+        folder / "ring.ply",
+        "-o",
+        f"{folder}/many/",
+        "-f",
+        *words(wish),
+    )
     return (folder / "many" / "ring.bsm").read_bytes()
 
 
@@ -138,8 +157,19 @@ def by_view_of_frames(folder, wish):
     return content.layers[content.main].stream
 
 
-MESHES = {"mesh": by_mesh, "command": by_command, "batch": by_batch, "many": by_many, "view": by_view}
-MOVING = {"frames": by_frames, "sequence": by_sequence, "command": by_command_of_frames, "view": by_view_of_frames}
+MESHES = {
+    "mesh": by_mesh,
+    "command": by_command,
+    "batch": by_batch,
+    "many": by_many,
+    "view": by_view,
+}
+MOVING = {
+    "frames": by_frames,
+    "sequence": by_sequence,
+    "command": by_command_of_frames,
+    "view": by_view_of_frames,
+}
 
 
 def outcome(door, folder, wish):
@@ -158,7 +188,9 @@ def test_doors_of_meshes_and_of_frames_do_the_same(wish, folder, capsys):
         for name, door in doors.items():
             found = outcome(door, folder, WISHES[wish])
             same = found == usual if isinstance(usual, bytes) else not isinstance(found, bytes)
-            refused = name == "view" and set(WISHES[wish]) - {"preset"} and not isinstance(found, bytes)
+            refused = (
+                name == "view" and set(WISHES[wish]) - {"preset"} and not isinstance(found, bytes)
+            )
             differ += [] if same or refused else [name]
     assert not differ
 
@@ -168,7 +200,9 @@ def stream_in(glb):
     size = struct.unpack_from("<I", glb, 12)[0]
     tree = json.loads(glb[20 : 20 + size])
     (number,) = {
-        view["extensions"]["EXT_bsm_compression"]["stream"] for view in tree["bufferViews"] if "extensions" in view
+        view["extensions"]["EXT_bsm_compression"]["stream"]
+        for view in tree["bufferViews"]
+        if "extensions" in view
     }
     view = tree["bufferViews"][number]
     begin = 28 + size + view.get("byteOffset", 0)
@@ -184,7 +218,9 @@ def test_scenes_and_tiles_do_the_same_or_refuse(wish, folder, capsys):
     out = folder / "out.glb"
     if wish in ("nothing", "preset"):
         run("glb", folder / "plain.glb", "-o", out, "-f", *words(given))
-        assert stream_in(out.read_bytes()) == bsm.encode((mesh, faces), **{"preset": "grid14", **given})
+        assert stream_in(out.read_bytes()) == bsm.encode(
+            (mesh, faces), **{"preset": "grid14", **given}
+        )
     elif wish != "quality":
         with pytest.raises(bsm.BsmError):
             run("glb", folder / "plain.glb", "-o", out, "-f", *words(given))
@@ -208,7 +244,10 @@ class _Column(list):
 def blender(monkeypatch):
     """As much of Blender as handing over an object needs; the whole is tried where it is installed."""
     points = MESH.positions.astype(np.float32)
-    triangles = [Some(vertices=face, loops=range(3), polygon_index=number) for number, face in enumerate(MESH.faces)]
+    triangles = [
+        Some(vertices=face, loops=range(3), polygon_index=number)
+        for number, face in enumerate(MESH.faces)
+    ]
     data = Some(
         calc_loop_triangles=lambda: None,
         loop_triangles=_Column(triangles),
@@ -220,15 +259,25 @@ def blender(monkeypatch):
     moving = Some(name="ring", material_slots=[], matrix_world=np.eye(4), to_mesh=lambda: data)
     moving.evaluated_get, moving.to_mesh_clear = lambda graph: moving, lambda: None
     units = Some(system="METRIC", scale_length=1.0)
-    scene = Some(frame_start=1, frame_end=3, frame_current=1, unit_settings=units, render=Some(fps=24, fps_base=1.0))
+    scene = Some(
+        frame_start=1,
+        frame_end=3,
+        frame_current=1,
+        unit_settings=units,
+        render=Some(fps=24, fps_base=1.0),
+    )
     scene.frame_set = lambda number: None
     context = Some(scene=scene, evaluated_depsgraph_get=lambda: None)
-    monkeypatch.setitem(sys.modules, "bpy", Some(context=context, types=Some(Object=Some), data=Some(), path=Some()))
+    monkeypatch.setitem(
+        sys.modules, "bpy", Some(context=context, types=Some(Object=Some), data=Some(), path=Some())
+    )
     monkeypatch.delitem(sys.modules, "plugins.blender.extension.objects", raising=False)
     return moving, points
 
 
-@pytest.mark.parametrize("wish", [name for name, wish in WISHES.items() if not {"metadata", "provenance"} & set(wish)])
+@pytest.mark.parametrize(
+    "wish", [name for name, wish in WISHES.items() if not {"metadata", "provenance"} & set(wish)]
+)
 def test_blender_does_the_same(wish, tmp_path, monkeypatch):
     moving, points = blender(monkeypatch)
     package = type(sys)("plugins.blender.extension")
@@ -246,7 +295,9 @@ def test_blender_does_the_same(wish, tmp_path, monkeypatch):
 
     def usual(folder, wish):
         if folder:
-            return bsm.encode_sequence(frames, faces, metadata={**entries, "frame_rate": 24.0}, **wish)
+            return bsm.encode_sequence(
+                frames, faces, metadata={**entries, "frame_rate": 24.0}, **wish
+            )
         return bsm.encode((frames[0], faces), metadata=entries, **wish)
 
     for moves in (False, True):

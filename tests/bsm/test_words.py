@@ -11,12 +11,43 @@ from bsm.cli import COMMANDS, command_parser
 ROOT = Path(__file__).parents[2]
 PRODUCT = ROOT / "src" / "bsm"
 OWN = (
-    *("attribute", "block", "bound", "chain", "coefficient", "component", "dictionary", "generation", "GOP"),
-    *("grid", "layer", "level", "preset", "promise", "refinement", "run", "section", "segment", "stream"),
+    *(
+        "attribute",
+        "block",
+        "bound",
+        "chain",
+        "coefficient",
+        "component",
+        "dictionary",
+        "generation",
+        "GOP",
+    ),
+    *(
+        "grid",
+        "layer",
+        "level",
+        "preset",
+        "promise",
+        "refinement",
+        "run",
+        "section",
+        "segment",
+        "stream",
+    ),
     *("target", "tile"),
 )
 """Words with a meaning of their own here."""
-PRIVATE = ("binds", "packet", "payload", "frame of type", "END frame", "varint", "closed loop", "rehearsal", "rung")
+PRIVATE = (
+    "binds",
+    "packet",
+    "payload",
+    "frame of type",
+    "END frame",
+    "varint",
+    "closed loop",
+    "rehearsal",
+    "rung",
+)
 """Words of the source and the specification, which users do not need."""
 
 
@@ -33,11 +64,19 @@ def messages() -> dict[str, str]:
         for node in ast.walk(ast.parse(path.read_text("utf-8"))):
             if not isinstance(node, ast.Call):
                 continue
-            called = node.func.attr if isinstance(node.func, ast.Attribute) else getattr(node.func, "id", "")
+            called = (
+                node.func.attr
+                if isinstance(node.func, ast.Attribute)
+                else getattr(node.func, "id", "")
+            )
             if called not in ("note", "say", "warn") and not called.endswith("Error"):
                 continue
             parts = [part for argument in node.args for part in ast.walk(argument)]
-            words = [part.value for part in parts if isinstance(part, ast.Constant) and isinstance(part.value, str)]
+            words = [
+                part.value
+                for part in parts
+                if isinstance(part, ast.Constant) and isinstance(part.value, str)
+            ]
             texts[f"{path.relative_to(ROOT)}:{node.lineno}"] = " ".join(words)
     return texts
 
@@ -57,5 +96,7 @@ def test_words_of_our_own_are_in_the_glossary(texts):
 
 
 def test_no_message_uses_words_of_the_source(texts):
-    found = [f"{place}: {word}" for place, text in texts.items() for word in PRIVATE if word in text]
+    found = [
+        f"{place}: {word}" for place, text in texts.items() for word in PRIVATE if word in text
+    ]
     assert found == []

@@ -41,7 +41,9 @@ def arrays():
 
 CALLS = {
     "encode": lambda wrong: bsm.encode(wrong),
-    "encode with options": lambda wrong: bsm.encode(torus(5, 5), wrong) if wrong is not None else None,
+    "encode with options": lambda wrong: (
+        bsm.encode(torus(5, 5), wrong) if wrong is not None else None
+    ),
     "encode positions": lambda wrong: bsm.encode((wrong, arrays()[1])),
     "encode faces": lambda wrong: bsm.encode((arrays()[0], wrong)),
     "encode metadata": lambda wrong: bsm.encode(torus(5, 5), grid=8, metadata=wrong),
@@ -53,7 +55,9 @@ CALLS = {
     "sequence with attributes": lambda wrong: bsm.encode_sequence(
         np.zeros((0, 25, 3)), arrays()[1], mesh_attributes=wrong
     ),
-    "sequence metadata": lambda wrong: bsm.encode_sequence(np.zeros((0, 25, 3)), arrays()[1], metadata=wrong),
+    "sequence metadata": lambda wrong: bsm.encode_sequence(
+        np.zeros((0, 25, 3)), arrays()[1], metadata=wrong
+    ),
     "encode_frames": lambda wrong: bsm.encode_frames(wrong),
     "encode_frames of one": lambda wrong: bsm.encode_frames([torus(5, 5), wrong]),
     "encode_frames metadata": lambda wrong: bsm.encode_frames([], metadata=wrong),
@@ -68,7 +72,9 @@ CALLS = {
     "denoise": lambda wrong: bsm.denoise(wrong),
     "denoise strength": lambda wrong: bsm.denoise(torus(5, 5), strength=wrong),
     "denoise goal": lambda wrong: bsm.denoise(torus(5, 5), goal=wrong),
-    "progress": lambda wrong: bsm.encode(torus(5, 5), grid=8, progress=wrong) if wrong is not print else None,
+    "progress": lambda wrong: (
+        bsm.encode(torus(5, 5), grid=8, progress=wrong) if wrong is not print else None
+    ),
     "encode_many progress": lambda wrong: bsm.encode_many(["missing.obj"], progress=wrong),
     "open_tiles": lambda wrong: bsm.open_tiles(wrong),
     "Decoder limits": lambda wrong: bsm.Decoder(wrong),
@@ -81,7 +87,9 @@ CALLS = {
     "encode_many": lambda wrong: bsm.encode_many(wrong),
     "encode_many into": lambda wrong: bsm.encode_many(["missing.obj"], wrong),
     "encode_many report": lambda wrong: bsm.encode_many(["missing.obj"], report=wrong),
-    "encode_many jobs": lambda wrong: bsm.encode_many(["missing.obj"], jobs=wrong) if wrong != 5 else None,
+    "encode_many jobs": lambda wrong: (
+        bsm.encode_many(["missing.obj"], jobs=wrong) if wrong != 5 else None
+    ),
     "mesh attributes": lambda wrong: bsm.TriangleMesh(*arrays(), wrong),
     "mesh metadata": lambda wrong: bsm.TriangleMesh(*arrays(), (), wrong),
     "attribute name": lambda wrong: bsm.Attribute(wrong, np.ones(3)),
@@ -89,7 +97,9 @@ CALLS = {
     "attribute domain": lambda wrong: bsm.Attribute("a", np.ones(3), wrong),
     "attribute indices": lambda wrong: bsm.Attribute("a", np.ones(3), "corner", "generic", wrong),
     **{
-        f"{kind.__name__} {field.name}": (lambda wrong, kind=kind, name=field.name: kind(**{name: wrong}))
+        f"{kind.__name__} {field.name}": (
+            lambda wrong, kind=kind, name=field.name: kind(**{name: wrong})
+        )
         for kind in (bsm.Limits, bsm.EncodeOptions)
         for field in fields(kind)
     },
@@ -127,7 +137,10 @@ REFUSED = {
     "threads must": (bsm.ArgumentError, lambda: bsm.decode(stream(), threads="2")),
     "start must": (bsm.OptionError, lambda: bsm.SequenceDecoder(start=1 << 70)),
     "expected, not NoneType": (bsm.ArgumentError, lambda: bsm.load(None)),
-    r"unknown goal 'typo'.*shading": (bsm.OptionError, lambda: bsm.denoise(torus(5, 5), goal="typo")),
+    r"unknown goal 'typo'.*shading": (
+        bsm.OptionError,
+        lambda: bsm.denoise(torus(5, 5), goal="typo"),
+    ),
 }
 
 
@@ -141,7 +154,10 @@ def test_what_is_out_of_range_is_named(message):
 @pytest.mark.parametrize("metadata", [{"a\0b": "cut"}, {"a": 1 << 63}, {"a": -(1 << 63) - 1}])
 def test_metadata_that_would_not_come_back_are_refused(metadata):
     positions, faces = arrays()
-    for call, given in ((bsm.encode, (positions, faces)), (bsm.encode_frames, [(positions, faces)])):
+    for call, given in (
+        (bsm.encode, (positions, faces)),
+        (bsm.encode_frames, [(positions, faces)]),
+    ):
         with pytest.raises(bsm.OptionError, match="metadata 'a"):
             call(given, metadata=metadata)
     kept = {"a": "b\0c", "b": (1 << 63) - 1, "c": np.float64(2), "d": np.int64(3)}
@@ -170,13 +186,20 @@ def test_large_and_small_meshes_come_back(scale):
     mesh = torus(6, 6)
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        decoded = bsm.decode(bsm.encode((mesh.positions * scale, mesh.faces), preset="near-lossless"))
-    assert np.abs(decoded.positions).max() == pytest.approx(scale * np.abs(mesh.positions).max(), rel=0.01)
+        decoded = bsm.decode(
+            bsm.encode((mesh.positions * scale, mesh.faces), preset="near-lossless")
+        )
+    assert np.abs(decoded.positions).max() == pytest.approx(
+        scale * np.abs(mesh.positions).max(), rel=0.01
+    )
 
 
 def test_too_many_attributes_are_refused_before_any_is_coded():
     shape = torus(8, 6)
-    many = [Attribute(f"a{number}", np.zeros(len(shape.positions), np.uint8), "vertex") for number in range(256)]
+    many = [
+        Attribute(f"a{number}", np.zeros(len(shape.positions), np.uint8), "vertex")
+        for number in range(256)
+    ]
     with pytest.raises(bsm.OptionError, match="255 attributes at most, not 256"):
         bsm.encode(TriangleMesh(shape.positions, shape.faces, tuple(many)))
 
@@ -186,7 +209,9 @@ def test_attributes_that_decoders_would_refuse_are_not_written(monkeypatch):
     shape = torus(12, 10)
     values = np.random.default_rng(0).normal(size=(3 * len(shape.faces), 4))
     many = tuple(Attribute(f"a{number}", values, "corner") for number in range(60))
-    with pytest.raises(bsm.OptionError, match="decoders with default limits would refuse this stream"):
+    with pytest.raises(
+        bsm.OptionError, match="decoders with default limits would refuse this stream"
+    ):
         bsm.encode(TriangleMesh(shape.positions, shape.faces, many), grid=8)
     bsm.encode(TriangleMesh(shape.positions, shape.faces, many[:2]), grid=8)
 
@@ -203,12 +228,16 @@ USES = {
     "look with": lambda mesh, good: bsm.look(mesh, good),
     "denoise": lambda mesh, good: bsm.denoise(mesh),
     "encode": lambda mesh, good: bsm.encode(mesh, preset="lossless"),
-    "encode frames": lambda mesh, good: bsm.encode_sequence(np.stack([good[0], mesh[0], good[0]]), good[1]),
+    "encode frames": lambda mesh, good: bsm.encode_sequence(
+        np.stack([good[0], mesh[0], good[0]]), good[1]
+    ),
 }
 
 
 @pytest.mark.parametrize("use", USES)
-@pytest.mark.parametrize("positions", [torus(6, 6).positions * 3e307, _one_far(1e308), _one_far(-1e300)])
+@pytest.mark.parametrize(
+    "positions", [torus(6, 6).positions * 3e307, _one_far(1e308), _one_far(-1e300)]
+)
 def test_coordinates_that_overflow_are_reported_wherever_they_come(use, positions):
     faces = torus(6, 6).faces
     with np.errstate(all="raise", under="ignore"), pytest.raises(MeshError, match="scale"):
@@ -216,7 +245,9 @@ def test_coordinates_that_overflow_are_reported_wherever_they_come(use, position
 
 
 @pytest.mark.parametrize("name", [f"a.{kind}" for kind in MESH_FORMATS if kind != "stl"])
-def test_coordinates_that_overflow_are_read_and_neither_cut_nor_compared_nor_encoded(tmp_path, name, capsys):
+def test_coordinates_that_overflow_are_read_and_neither_cut_nor_compared_nor_encoded(
+    tmp_path, name, capsys
+):
     path, positions = tmp_path / name, _one_far(1e308)
     bsm.save((positions, torus(6, 6).faces), str(path))
     # A format without vertices may have them in another order.

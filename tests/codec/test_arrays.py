@@ -20,10 +20,14 @@ def test_distinct_values_are_those_of_numpy(values):
 @pytest.mark.parametrize("command", ["encode", "decode"])
 def test_commands_load_no_masked_arrays(tmp_path, command):
     mesh = tmp_path / "mesh.obj"
-    mesh.write_text("o a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 3 4\no b\nf 1 4 2\nf 2 4 3\n")
+    mesh.write_text(
+        "o a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 3 4\no b\nf 1 4 2\nf 2 4 3\n"
+    )
     stream, decoded = tmp_path / "mesh.bsm", tmp_path / "decoded.ply"
     words = {"encode": [mesh, "-o", stream, "-f"], "decode": [stream, "-o", decoded]}
     subprocess.run([sys.executable, "-m", "bsm", "encode", *words["encode"]], check=True)
     run = [sys.executable, "-X", "importtime", "-m", "bsm", command, *words[command]]
     loaded = subprocess.run(run, check=True, capture_output=True, text=True).stderr
-    assert "numpy._core.multiarray" in loaded and "numpy.ma" not in loaded.replace("numpy.matrixlib", "")
+    assert "numpy._core.multiarray" in loaded and "numpy.ma" not in loaded.replace(
+        "numpy.matrixlib", ""
+    )

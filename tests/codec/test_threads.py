@@ -160,7 +160,9 @@ def test_threads_that_share_a_decoder_take_turns():
 
             def run():
                 try:
-                    while (event := decoder.next_event()) is not END_OF_STREAM and event is not NEED_DATA:
+                    while (
+                        event := decoder.next_event()
+                    ) is not END_OF_STREAM and event is not NEED_DATA:
                         if isinstance(event, BlockEvent):
                             arrays = event.vertices, event.positions, event.final
                             found.append((event.index, *(array.tobytes() for array in arrays)))
@@ -199,7 +201,11 @@ def test_what_a_shared_engine_returns_stays_as_it_was():
     def ask_for_loose():
         while not over.is_set():
             bad.extend(
-                [array for array, known in zip(engine.loose(), loose, strict=True) if not (array == known).all()]
+                [
+                    array
+                    for array, known in zip(engine.loose(), loose, strict=True)
+                    if not (array == known).all()
+                ]
             )
 
     def ask_for_changes():

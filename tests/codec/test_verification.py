@@ -56,9 +56,21 @@ BROKEN: dict[str, tuple[Callable[[], bytes], type, Change]] = {
     "step": (blocks, Header, lambda header: replace(header, step=2 * header.step)),
     "center": (blocks, Header, lambda header: replace(header, center=(0.5, *header.center[1:]))),
     "scale": (on_a_grid, Header, lambda header: replace(header, scale=1.25 * header.scale)),
-    "faces": (blocks, packets.Connectivity, lambda packet: replace(packet, data=flipped(packet.data))),
-    "refinement": (refined, packets.Refinement, lambda packet: replace(packet, data=flipped(packet.data))),
-    "coefficients": (blocks, packets.Coefficients, lambda packet: replace(packet, data=flipped(packet.data))),
+    "faces": (
+        blocks,
+        packets.Connectivity,
+        lambda packet: replace(packet, data=flipped(packet.data)),
+    ),
+    "refinement": (
+        refined,
+        packets.Refinement,
+        lambda packet: replace(packet, data=flipped(packet.data)),
+    ),
+    "coefficients": (
+        blocks,
+        packets.Coefficients,
+        lambda packet: replace(packet, data=flipped(packet.data)),
+    ),
     "grid": (on_a_grid, packets.Grid, lambda packet: replace(packet, data=flipped(packet.data))),
     "order": (ordered, packets.Order, lambda packet: replace(packet, data=flipped(packet.data))),
     "values": (painted, packets.Values, lambda packet: replace(packet, data=flipped(packet.data))),
@@ -69,13 +81,19 @@ BROKEN: dict[str, tuple[Callable[[], bytes], type, Change]] = {
     ),
     "metadata": (painted, packets.Metadata, lambda packet: replace(packet, entries={"unit": "cm"})),
     "frames": (moving, packets.Gop, lambda packet: replace(packet, data=flipped(packet.data))),
-    "metadata of frames": (moving, packets.Metadata, lambda packet: replace(packet, entries={"unit": "cm"})),
+    "metadata of frames": (
+        moving,
+        packets.Metadata,
+        lambda packet: replace(packet, entries={"unit": "cm"}),
+    ),
 }
 
 
 @pytest.mark.parametrize("name", BROKEN)
 @pytest.mark.parametrize("checksum", [True, False], ids=["with", "without"])
-def test_a_broken_writer_is_caught(name: str, checksum: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_broken_writer_is_caught(
+    name: str, checksum: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """Also without the checksum of positions in the stream, which tells decoders most of it."""
     make, kind, change = BROKEN[name]
     write = SectionWriter.write

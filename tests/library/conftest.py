@@ -17,6 +17,14 @@ def library() -> ctypes.CDLL:
 
 def linked(made: Path, source: Path, program: Path, *flags: str, compiler: str = "cc") -> Path:
     """A program of this source and the library that was made there."""
-    command = [compiler, *flags, f"-I{made}", f"-I{ROOT}", source, made / "bsmdec.so", f"-Wl,-rpath,{made}"]
+    command = [
+        compiler,
+        *flags,
+        f"-I{made}",
+        f"-I{ROOT}",
+        source,
+        made / "bsmdec.so",
+        f"-Wl,-rpath,{made}",
+    ]
     subprocess.run([*command, "-lm", "-pthread", "-o", program], check=True)
     return program

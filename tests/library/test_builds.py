@@ -35,7 +35,9 @@ def test_every_build_gives_the_same_bits(compiler: str, wanted: tuple[str, ...] 
 
     No flag says that nothing may be fused.
     """
-    flags = ["-DKERNEL_ONE_TARGET", *(f"-m{build}" for build in wanted)] if wanted is not None else []
+    flags = (
+        ["-DKERNEL_ONE_TARGET", *(f"-m{build}" for build in wanted)] if wanted is not None else []
+    )
     if shutil.which(compiler) is None or not has(*(wanted or ())):
         pytest.skip(f"no {compiler} here, or a processor without {' '.join(wanted or ())}")
     library = build("-O1", *flags, compiler=compiler)
@@ -44,10 +46,17 @@ def test_every_build_gives_the_same_bits(compiler: str, wanted: tuple[str, ...] 
             continue
         found = decode(library, vector.stream.read_bytes())
         arrays = of_sequence(found) if "-sequence" in vector.name else dict(found.arrays)
-        assert vector.complaint(arrays.pop("positions"), arrays.pop("faces"), arrays) is None, vector.name
+        assert vector.complaint(arrays.pop("positions"), arrays.pop("faces"), arrays) is None, (
+            vector.name
+        )
 
 
-REFUSED = [("gcc", "-ffast-math"), ("gcc", "-Ofast"), ("gcc", "-funsafe-math-optimizations"), ("gcc", "-mfpmath=387")]
+REFUSED = [
+    ("gcc", "-ffast-math"),
+    ("gcc", "-Ofast"),
+    ("gcc", "-funsafe-math-optimizations"),
+    ("gcc", "-mfpmath=387"),
+]
 
 
 @pytest.mark.parametrize(("compiler", "flag"), [*REFUSED, ("clang", "-ffast-math")])
@@ -55,7 +64,15 @@ def test_a_build_that_computes_otherwise_is_not_compiled(compiler: str, flag: st
     if shutil.which(compiler) is None or not has("sse2"):
         pytest.skip(f"no {compiler} here, or no x86-64")
     made = compiled()
-    command = [compiler, "-std=gnu11", flag, "-w", "-fsyntax-only", "-DKERNEL_ONE_TARGET", made / "bsmdec.c"]
+    command = [
+        compiler,
+        "-std=gnu11",
+        flag,
+        "-w",
+        "-fsyntax-only",
+        "-DKERNEL_ONE_TARGET",
+        made / "bsmdec.c",
+    ]
     run = subprocess.run(command, capture_output=True, text=True, check=False)
     assert run.returncode != 0
     assert "error" in run.stderr
@@ -64,7 +81,11 @@ def test_a_build_that_computes_otherwise_is_not_compiled(compiler: str, flag: st
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    "flags", [("-ffp-contract=fast", "-mfma"), ("-fassociative-math", "-fno-signed-zeros", "-fno-trapping-math")]
+    "flags",
+    [
+        ("-ffp-contract=fast", "-mfma"),
+        ("-fassociative-math", "-fno-signed-zeros", "-fno-trapping-math"),
+    ],
 )
 def test_a_build_that_computes_otherwise_decodes_nothing(flags: tuple[str, ...]) -> None:
     """Clang's pragma gives way to a flag, and no macro tells: running shows it."""
@@ -81,7 +102,9 @@ def test_a_build_that_computes_otherwise_decodes_nothing(flags: tuple[str, ...])
 def test_the_arithmetic_of_the_host_changes_nothing(tmp_path: Path) -> None:
     """A host that rounds upward and flushes small numbers gets the same bits, and its arithmetic back."""
     made, vectors = compiled(), sorted((ROOT / "spec/vectors").glob("*/*.bsm"))
-    fingerprint = linked(made, ROOT / "tools/processors/fingerprint.c", tmp_path / "fingerprint", "-w")
+    fingerprint = linked(
+        made, ROOT / "tools/processors/fingerprint.c", tmp_path / "fingerprint", "-w"
+    )
     usual, unusual = (run(fingerprint, *options, *vectors) for options in ((), ("-u",)))
     assert len(usual.splitlines()) == len(vectors)
     assert unusual == usual
@@ -93,10 +116,24 @@ CRATE = Path(__file__).parents[2] / "library/rust"
 @pytest.mark.slow
 @pytest.mark.skipif(shutil.which("cargo") is None, reason="no Rust here")
 def test_the_crate_passes_its_tests_and_its_example_runs(tmp_path: Path) -> None:
-    own = {"CARGO_TARGET_DIR": str(tmp_path), "PYTHON": sys.executable, "CFLAGS": "-O0 -DKERNEL_ONE_TARGET"}
+    own = {
+        "CARGO_TARGET_DIR": str(tmp_path),
+        "PYTHON": sys.executable,
+        "CFLAGS": "-O0 -DKERNEL_ONE_TARGET",
+    }
     for command in (["test"], ["run", "--example", "encode"]):
-        words = ["cargo", *command, "--offline", "--quiet", "--locked", "--manifest-path", CRATE / "Cargo.toml"]
-        done = subprocess.run(words, cwd=tmp_path, env=os.environ | own, capture_output=True, text=True, check=False)
+        words = [
+            "cargo",
+            *command,
+            "--offline",
+            "--quiet",
+            "--locked",
+            "--manifest-path",
+            CRATE / "Cargo.toml",
+        ]
+        done = subprocess.run(
+            words, cwd=tmp_path, env=os.environ | own, capture_output=True, text=True, check=False
+        )
         assert done.returncode == 0, done.stdout + done.stderr
     assert len(bsm.load(tmp_path / "tetrahedron.bsm").faces) == 4
 
@@ -128,8 +165,12 @@ endforeach()
 """
 
 
-def run(*command: str | Path, folder: Path | None = None, environment: dict[str, str] | None = None) -> str:
-    done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False, env=environment)
+def run(
+    *command: str | Path, folder: Path | None = None, environment: dict[str, str] | None = None
+) -> str:
+    done = subprocess.run(
+        command, cwd=folder, capture_output=True, text=True, check=False, env=environment
+    )
     assert done.returncode == 0, done.stdout + done.stderr
     return done.stdout
 
@@ -146,8 +187,20 @@ def exported(file: Path) -> set[str]:
 def test_the_header_has_no_warnings(compiler: str, language: str, standard: str) -> None:
     if shutil.which(compiler) is None:
         pytest.skip(f"no {compiler} here")
-    strict = ["-Wconversion", *(["-Wold-style-cast"] if language == "c++" else ["-Wstrict-prototypes"])]
-    run(compiler, "-x", language, f"-std={standard}", *WARNINGS, *strict, "-fsyntax-only", ROOT / "library/bsmdec.h")
+    strict = [
+        "-Wconversion",
+        *(["-Wold-style-cast"] if language == "c++" else ["-Wstrict-prototypes"]),
+    ]
+    run(
+        compiler,
+        "-x",
+        language,
+        f"-std={standard}",
+        *WARNINGS,
+        *strict,
+        "-fsyntax-only",
+        ROOT / "library/bsmdec.h",
+    )
 
 
 def test_nothing_else_is_exported() -> None:
@@ -161,7 +214,16 @@ def test_clang_has_no_warnings(tmp_path: Path) -> None:
     if shutil.which("clang") is None:
         pytest.skip("no clang here")
     made = compiled()
-    run("clang", "-std=gnu11", "-ffp-contract=off", *WARNINGS, "-c", made / "bsmdec.c", "-o", tmp_path / "bsmdec.o")
+    run(
+        "clang",
+        "-std=gnu11",
+        "-ffp-contract=off",
+        *WARNINGS,
+        "-c",
+        made / "bsmdec.c",
+        "-o",
+        tmp_path / "bsmdec.o",
+    )
     assert not [name for name in exported(tmp_path / "bsmdec.o") if not name.startswith("bsmdec_")]
 
 
@@ -201,7 +263,10 @@ def test_pkg_config_finds_it_wherever_it_is(installed: Path) -> None:
     path = {"PKG_CONFIG_PATH": str(prefix / "lib/pkgconfig"), "PATH": "/usr/bin:/bin"}
     for name, source in (("bsmdec", "main.c"), ("bsm", "enc.c")):
         flags = run("pkg-config", "--cflags", "--libs", f"{name} >= 1.0", environment=path).split()
-        assert [Path(flag[2:]).resolve() for flag in flags[:2]] == [prefix / "include", prefix / "lib"]
+        assert [Path(flag[2:]).resolve() for flag in flags[:2]] == [
+            prefix / "include",
+            prefix / "lib",
+        ]
         run("cc", installed / source, *flags, f"-Wl,-rpath,{prefix}/lib", "-o", installed / name)
     assert run(installed / "bsmdec").strip() == "1.0.0"
 
@@ -216,7 +281,10 @@ def test_cmake_finds_a_later_minor_version(installed: Path) -> None:
         lists.write_text(CONSUMER.format(wanted=wanted))
         build = lists.parent / f"build-{wanted}"
         done = subprocess.run(
-            ["cmake", "-S", lists.parent, "-B", build, prefix], capture_output=True, text=True, check=False
+            ["cmake", "-S", lists.parent, "-B", build, prefix],
+            capture_output=True,
+            text=True,
+            check=False,
         )
         assert (done.returncode == 0) is found, done.stderr
     run("cmake", "--build", lists.parent / "build-1.0")
@@ -241,7 +309,10 @@ def test_other_processors_decode_the_same() -> None:
 
     Zig compiles the C library of each processor anew, which takes longer than everything else here.
     """
-    folder, streams = ROOT / ".cache/processors", sorted((ROOT / "spec/vectors").glob("*/*.bsm"))[::8]
+    folder, streams = (
+        ROOT / ".cache/processors",
+        sorted((ROOT / "spec/vectors").glob("*/*.bsm"))[::8],
+    )
     prepare(folder)
     here = program(folder, "here", ["cc", "-O1"])
     assert isinstance(here, Path)

@@ -20,11 +20,23 @@ from tests.streams import all_events
 from tools import bsmenc
 from tools.amalgamate import ROOT
 from tools.bsmdec import Entry
-from tools.bsmenc import CELLS, LOSSLESS, PROGRESS, STOPPED, UNREACHABLE, Allocator, compiled_whole, encode, library
+from tools.bsmenc import (
+    CELLS,
+    LOSSLESS,
+    PROGRESS,
+    STOPPED,
+    UNREACHABLE,
+    Allocator,
+    compiled_whole,
+    encode,
+    library,
+)
 from tools.vectors.good_attributes import charts, creases, with_attributes
 from tools.vectors.good_swift import tangents
 
-TOUCHING = soup(together(torus(9, 7), boxes(*np.ndindex(1, 2, 3)), soup(patch(3, 3)), boxes((1, 0, 0))))
+TOUCHING = soup(
+    together(torus(9, 7), boxes(*np.ndindex(1, 2, 3)), soup(patch(3, 3)), boxes((1, 0, 0)))
+)
 MIXED = TriangleMesh(TOUCHING.positions, np.random.default_rng(2).permutation(TOUCHING.faces))
 
 
@@ -42,13 +54,24 @@ def dressed(mesh):
     attributes = (
         Attribute("color", rng.integers(0, 255, (n, 4)).astype(np.uint8), semantic="color"),
         Attribute("normal", normals, semantic="normal"),
-        Attribute("uv", np.where(corners > 0, corners, corners + 3).astype(np.float32), "corner", "texcoord"),
+        Attribute(
+            "uv",
+            np.where(corners > 0, corners, corners + 3).astype(np.float32),
+            "corner",
+            "texcoord",
+        ),
         Attribute("uv2", np.where(corners > 0, corners, corners + 5), "corner", "texcoord"),
         Attribute("part", rng.integers(0, 3, m).astype(np.int32), "face"),
         Attribute("heat", rng.standard_normal(n)),
         Attribute("label", np.arange(n, dtype=np.float64) % 7),
     )
-    metadata = {"unit": "mm", "count": -70000, "scale": 0.1, "image.0.data": bytes(range(256)), "name": "Ü" * 40}
+    metadata = {
+        "unit": "mm",
+        "count": -70000,
+        "scale": 0.1,
+        "image.0.data": bytes(range(256)),
+        "name": "Ü" * 40,
+    }
     return replace(mesh, attributes=attributes, metadata=metadata)
 
 
@@ -59,7 +82,9 @@ def filmed(positions, faces, *attributes):
 
 @pytest.mark.parametrize("keep", [False, True])
 @pytest.mark.parametrize("preset", ["grid14", "lossless"])
-@pytest.mark.parametrize("mesh", [tetrahedron(), torus(20, 12), MIXED, dressed(torus(20, 12)), TOUCHING])
+@pytest.mark.parametrize(
+    "mesh", [tetrahedron(), torus(20, 12), MIXED, dressed(torus(20, 12)), TOUCHING]
+)
 def test_c_and_python_write_the_same_bytes(encoder, mesh, preset, keep):
     found = encode(encoder, mesh, positions=LOSSLESS * (preset == "lossless"), keep_order=keep)
     assert (found.status, found.message) == (0, "")
@@ -92,7 +117,9 @@ def test_tangents_are_those_of_python(encoder, bits, effort, keep):
 def test_cells_fit_those_of_python(encoder):
     mesh = torus(20, 12)
     found = encode(encoder, mesh, positions=CELLS, cell=0.01, origin=(5.0, 0.003, -1.0), quick=1)
-    assert found.data == bsm.encode(mesh, grid_cell=0.01, grid_origin=(5.0, 0.003, -1.0), effort="quick")
+    assert found.data == bsm.encode(
+        mesh, grid_cell=0.01, grid_origin=(5.0, 0.003, -1.0), effort="quick"
+    )
 
 
 PAGE = """
@@ -117,12 +144,16 @@ def test_webassembly_writes_the_same_bytes(encoder, tmp_path):
     (tmp_path / "page.mjs").write_text(PAGE)
     subprocess.run(["node", "page.mjs", module], cwd=tmp_path, check=True)
     cells = {"positions": CELLS, "cell": 0.01, "origin": (1.0, 2.0, 3.0)}
-    for i, options in enumerate(({}, {"positions": LOSSLESS}, {"bits": 11, "keep_order": 1}, {"quick": 1}, cells)):
+    for i, options in enumerate(
+        ({}, {"positions": LOSSLESS}, {"bits": 11, "keep_order": 1}, {"quick": 1}, cells)
+    ):
         assert (tmp_path / f"{i}.bsm").read_bytes() == encode(encoder, mesh, **options).data
 
 
 @pytest.mark.real
-@pytest.mark.parametrize("name", ["assets/duck_uv.obj", "assets/monkey.glb", "hostile/cgal_blobby_3cc.off"])
+@pytest.mark.parametrize(
+    "name", ["assets/duck_uv.obj", "assets/monkey.glb", "hostile/cgal_blobby_3cc.off"]
+)
 def test_real_meshes_give_the_same_bytes(encoder, name, meshes):
     mesh = bsm.load(meshes / name)
     for preset, positions in (("grid14", 0), ("lossless", LOSSLESS)):
@@ -138,7 +169,10 @@ def test_orders_and_counts_say_what_became_of_the_mesh(encoder):
     assert found.counts[:3] == (len(mesh.faces) * 3 - 63, 1, 0)
     assert np.abs(decoded.positions - mesh.positions[vertices]).max() == pytest.approx(found.error)
     corners = mesh.positions[mesh.faces[faces]]
-    assert min(np.abs(corners - np.roll(decoded.positions[decoded.faces], k, 1)).max(2).max(1).max() for k in (0, 1, 2))
+    assert min(
+        np.abs(corners - np.roll(decoded.positions[decoded.faces], k, 1)).max(2).max(1).max()
+        for k in (0, 1, 2)
+    )
     assert encode(encoder, mesh, keep_order=1).counts[:3] == (0, 0, 0)
 
 
@@ -168,21 +202,36 @@ def test_wrong_meshes_and_options_are_refused(encoder):
 
 def test_misuse_is_told(encoder):
     positions, corners = np.eye(3), np.arange(3, dtype=np.uint32)
-    heat, long = (bsmenc.Given(name, 0, 0, 7, 1, 3, positions.ctypes.data) for name in (b"heat", b"x" * 256))
+    heat, long = (
+        bsmenc.Given(name, 0, 0, 7, 1, 3, positions.ctypes.data) for name in (b"heat", b"x" * 256)
+    )
     entries = [Entry(b"m%d" % number, 1, number) for number in range(40_000)]
     for what, count, rows, words in (
-        *(("attribute", 2, (heat, heat), "two attributes have the name 'heat'"), ("attribute", 1, (long,), "1 to 255")),
-        *(("metadata", 40_001, (*entries, entries[7]), "the name 'm7'"), ("attribute", 2**64 - 1, (heat,), "255")),
-        *(("metadata", 1, (Entry(long.name, 1),), "short name"), ("metadata", 2**64 - 1, entries, "too long")),
+        *(
+            ("attribute", 2, (heat, heat), "two attributes have the name 'heat'"),
+            ("attribute", 1, (long,), "1 to 255"),
+        ),
+        *(
+            ("metadata", 40_001, (*entries, entries[7]), "the name 'm7'"),
+            ("attribute", 2**64 - 1, (heat,), "255"),
+        ),
+        *(
+            ("metadata", 1, (Entry(long.name, 1),), "short name"),
+            ("metadata", 2**64 - 1, entries, "too long"),
+        ),
         *((what, 1, (), "is NULL") for what in ("attribute", "metadata")),
     ):
-        mesh = bsmenc.Mesh(ctypes.sizeof(bsmenc.Mesh), 3, 1, positions.ctypes.data, None, corners.ctypes.data)
+        mesh = bsmenc.Mesh(
+            ctypes.sizeof(bsmenc.Mesh), 3, 1, positions.ctypes.data, None, corners.ctypes.data
+        )
         kept = (type(rows[0]) * len(rows))(*rows) if rows else None
         setattr(mesh, f"{what}_count", count)
         setattr(mesh, what.replace("bute", "butes"), kept and ctypes.addressof(kept))
         found = bsmenc.run(encoder, mesh, bsmenc.Options(ctypes.sizeof(bsmenc.Options)))
         assert found.status == 2 and words in found.message
-    endless = bsmenc.Mesh(ctypes.sizeof(bsmenc.Mesh), 3, 1, positions.ctypes.data, None, corners.ctypes.data)
+    endless = bsmenc.Mesh(
+        ctypes.sizeof(bsmenc.Mesh), 3, 1, positions.ctypes.data, None, corners.ctypes.data
+    )
     endless.frames = 2**63 - 1
     found = bsmenc.run(encoder, endless, bsmenc.Options(ctypes.sizeof(bsmenc.Options)))
     assert found.status == 2 and "9223372036854775807 frames" in found.message
@@ -208,7 +257,9 @@ def test_no_memory_at_any_place_is_an_error_and_everything_is_given_back(encoder
     assert expected.status == 0 and not allocator.held
     for refused in range(1, allocator.calls + 1):
         hungry = Allocator([refused])
-        found = encode(encoder, mesh, allocator=ctypes.addressof(hungry), keep_order=1, frames=frames)
+        found = encode(
+            encoder, mesh, allocator=ctypes.addressof(hungry), keep_order=1, frames=frames
+        )
         assert (found.status, found.data) == (8, b""), refused
         assert not hungry.held
 
@@ -229,7 +280,11 @@ def test_random_meshes_with_attributes_come_back(encoder, seed):
         info = np.iinfo(kind)
         values = rng.integers(info.min, info.max, shape, np.int64, endpoint=True)
     semantic = str(rng.choice(["generic", "color", "normal", "texcoord"]))
-    mesh = TriangleMesh(positions, rng.integers(0, n, (m, 3)), [Attribute("a", values.astype(kind), domain, semantic)])
+    mesh = TriangleMesh(
+        positions,
+        rng.integers(0, n, (m, 3)),
+        [Attribute("a", values.astype(kind), domain, semantic)],
+    )
     keep, positions_as = int(rng.integers(2)), int(rng.choice([0, LOSSLESS]))
     found = encode(encoder, mesh, keep_order=keep, positions=positions_as)
     if not positions_as or found.status != UNREACHABLE:
@@ -241,7 +296,9 @@ def test_the_program_of_the_documents_writes_a_stream(tmp_path):
     text = (ROOT / "docs/guides/encode.md").read_text()
     program = re.search(r"```c\n(.*?)```", text, re.DOTALL)[1]
     (tmp_path / "write.c").write_text(program)
-    write = linked(compiled_whole(), tmp_path / "write.c", tmp_path / "write", "-O0", "-Wall", "-Werror")
+    write = linked(
+        compiled_whole(), tmp_path / "write.c", tmp_path / "write", "-O0", "-Wall", "-Werror"
+    )
     subprocess.run([write], cwd=tmp_path, check=True)
     assert len(bsm.load(tmp_path / "tetrahedron.bsm").faces) == 4
 
@@ -250,20 +307,31 @@ def test_the_program_of_the_documents_writes_a_stream(tmp_path):
 def test_frames_come_back_within_half_a_cell_and_colors_stay(encoder, keep):
     positions, faces = bending(19)
     color = Attribute("color", np.arange(len(faces), dtype=np.uint8)[:, None], "face", "color")
-    doubled = np.concatenate([positions, positions[:, faces[0]]], axis=1)  # which are merged, but with their order
+    # Which are merged, but with their order.
+    doubled = np.concatenate([positions, positions[:, faces[0]]], axis=1)
     again = faces.copy()
     again[0] = positions.shape[1] + np.arange(3)
     found = encode(encoder, filmed(doubled, again, color), frames=19, bits=9, keep_order=keep)
     assert found.status == 0 and found.counts[0] == (0 if keep else 3)
     with bsm.SequenceDecoder() as decoder:
-        frames = [event for event in all_events(decoder, [found.data]) if isinstance(event, FrameEvent)]
-    assert all(np.array_equal(frame.attributes[0].values, color.values[found.orders[1]]) for frame in frames)
+        frames = [
+            event for event in all_events(decoder, [found.data]) if isinstance(event, FrameEvent)
+        ]
+    assert all(
+        np.array_equal(frame.attributes[0].values, color.values[found.orders[1]])
+        for frame in frames
+    )
     decoded, decoded_faces = bsm.decode_sequence(found.data)
     given = doubled[:, found.orders[0]]
     cell = np.ptp(doubled, axis=(0, 1)).max() / (2**9 - 1)
-    assert np.abs(decoded - given).max() == pytest.approx(found.error, rel=1e-9) and found.error <= cell / 2
+    assert (
+        np.abs(decoded - given).max() == pytest.approx(found.error, rel=1e-9)
+        and found.error <= cell / 2
+    )
     corners = np.sort(given[0][decoded_faces].reshape(len(faces), -1), axis=1)
-    assert np.array_equal(corners, np.sort(doubled[0][again[found.orders[1]]].reshape(len(faces), -1), axis=1))
+    assert np.array_equal(
+        corners, np.sort(doubled[0][again[found.orders[1]]].reshape(len(faces), -1), axis=1)
+    )
 
 
 def test_frames_without_extent_or_with_loose_vertices(encoder):
@@ -271,4 +339,5 @@ def test_frames_without_extent_or_with_loose_vertices(encoder):
     loose = np.concatenate([positions, positions[:, :1]], axis=1)
     assert encode(encoder, filmed(loose, faces), frames=3).counts[1] == 1
     assert "no face" in encode(encoder, filmed(loose, faces), frames=3, keep_order=1).message
-    assert encode(encoder, filmed(np.zeros_like(positions), faces), frames=3).status == 0  # all at one place
+    # All at one place.
+    assert encode(encoder, filmed(np.zeros_like(positions), faces), frames=3).status == 0

@@ -37,13 +37,17 @@ MISUSED = 2
 VECTORS = ROOT / "spec/vectors/1.0"
 
 
-@pytest.mark.parametrize("name", ["good-chain", "good-grid-chunks", "good-attribute-colors", "good-layer-chunks"])
+@pytest.mark.parametrize(
+    "name", ["good-chain", "good-grid-chunks", "good-attribute-colors", "good-layer-chunks"]
+)
 def test_pieces_make_no_difference(library: ctypes.CDLL, name: str) -> None:
     stream = (VECTORS / f"{name}.bsm").read_bytes()
     at_once, bytewise = decode(library, stream), decode(library, stream, pieces=1)
     assert at_once.status == bytewise.status == 0
     assert at_once.arrays.keys() == bytewise.arrays.keys()
-    assert all(np.array_equal(values, bytewise.arrays[key]) for key, values in at_once.arrays.items())
+    assert all(
+        np.array_equal(values, bytewise.arrays[key]) for key, values in at_once.arrays.items()
+    )
 
 
 def test_positions_are_known_as_far_as_they_have_come(library: ctypes.CDLL) -> None:
@@ -92,7 +96,10 @@ def test_calls_out_of_order_are_refused_and_touch_nothing(library: ctypes.CDLL) 
     assert refused("faces", None, 3 * event.faces) == "the array is NULL"
     assert refused("positions", faces.ctypes.data, 3) == f"size 3, expected {3 * event.vertices}"
     assert refused("attribute_values", 0, faces.ctypes.data, 1).startswith("size 1, expected ")
-    assert refused("attribute_indices", 0, faces.ctypes.data, 1) == "attribute 0 has no indices: it is not of corners"
+    assert (
+        refused("attribute_indices", 0, faces.ctypes.data, 1)
+        == "attribute 0 has no indices: it is not of corners"
+    )
     library.bsmdec_close(decoder)
     library.bsmdec_close(None)
 
@@ -105,7 +112,15 @@ class LongerOptions(Options):
 
 @pytest.mark.parametrize(
     ("size", "later", "opens"),
-    [(72, 1, True), (88, 1, True), (96, 0, True), (96, 1, False), (0, 0, False), (71, 0, False), (8192, 0, False)],
+    [
+        (72, 1, True),
+        (88, 1, True),
+        (96, 0, True),
+        (96, 1, False),
+        (0, 0, False),
+        (71, 0, False),
+        (8192, 0, False),
+    ],
 )
 def test_options_have_a_size(library: ctypes.CDLL, size: int, later: int, opens: bool) -> None:
     stream, event = (VECTORS / "good-tetrahedron.bsm").read_bytes(), Event()
@@ -134,7 +149,9 @@ def test_limits_have_a_size_and_are_numbers(library: ctypes.CDLL) -> None:
         assert library.bsmdec_default_limits(byref(limits), larger) == 0
         limits.bounds[place] = bound
         decoder = library.bsmdec_open(byref(Options(ctypes.addressof(limits), None, False, 0)))
-        assert library.bsmdec_push(decoder, b"\x89", 1) == library.bsmdec_finish(decoder) == expected
+        assert (
+            library.bsmdec_push(decoder, b"\x89", 1) == library.bsmdec_finish(decoder) == expected
+        )
         message = f"field {place + 1} of the limits is negative or not a number" if expected else ""
         assert library.bsmdec_last_error(decoder).contents.message.decode() == message
         library.bsmdec_close(decoder)
@@ -144,7 +161,10 @@ def test_an_error_names_the_limit_and_what_the_stream_needs(library: ctypes.CDLL
     stream, limits, event = (VECTORS / "good-keys.bsm").read_bytes(), Limits(), Event()
     library.bsmdec_default_limits(byref(limits), ctypes.sizeof(limits))
     vertices = len(bsm.decode(stream).positions)
-    for bound, data, named in ((vertices - 1.0, stream, (b"vertices", vertices)), (1e9, stream[:-1], (None, 0.0))):
+    for bound, data, named in (
+        (vertices - 1.0, stream, (b"vertices", vertices)),
+        (1e9, stream[:-1], (None, 0.0)),
+    ):
         limits.bounds[0] = bound
         decoder = library.bsmdec_open(byref(Options(ctypes.addressof(limits), None, False, 0)))
         library.bsmdec_push(decoder, data, len(data))
@@ -159,7 +179,9 @@ def test_an_error_names_the_limit_and_what_the_stream_needs(library: ctypes.CDLL
 @pytest.mark.parametrize(
     ("name", "start"), [("end-positions", 0), ("end-positions", 5), ("sequence-end-positions", -1)]
 )
-def test_positions_are_checked_from_whatever_start(library: ctypes.CDLL, name: str, start: int) -> None:
+def test_positions_are_checked_from_whatever_start(
+    library: ctypes.CDLL, name: str, start: int
+) -> None:
     found = decode(library, (VECTORS / f"bad-{name}.bsm").read_bytes(), start=start)
     assert "the checksum of decoded positions is wrong" in found.message
 
@@ -178,7 +200,9 @@ def test_the_example_writes_what_python_decodes(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("name", ["long", "low-delay-long", "runs", "moving-low-delay"])
 @pytest.mark.parametrize("start", [1, 5])
-def test_frames_from_a_start_on_are_those_of_the_whole(library: ctypes.CDLL, name: str, start: int) -> None:
+def test_frames_from_a_start_on_are_those_of_the_whole(
+    library: ctypes.CDLL, name: str, start: int
+) -> None:
     stream = (VECTORS / f"good-sequence-{name}.bsm").read_bytes()
     whole = decode(library, stream)
     expected, shown = whole.frames[start:], whole.shown
@@ -199,29 +223,47 @@ def test_the_example_reads_a_scene(tmp_path: Path) -> None:
     mesh = torus(24, 16)
     bsm.save(mesh, tmp_path / "ring.glb")
     assert main(["glb", str(tmp_path / "ring.glb"), "-o", str(tmp_path / "small.glb"), "-q"]) == 0
-    told = subprocess.run([program, tmp_path / "small.glb"], check=True, capture_output=True, text=True).stdout
-    name, counts, place = re.fullmatch(r"(.*): (\d+ vertices, \d+ triangles), the first at (.*)\n", told).groups()
-    assert (name, counts) == ("ring", f"{len(mesh.positions)} vertices, {len(mesh.faces)} triangles")
+    told = subprocess.run(
+        [program, tmp_path / "small.glb"], check=True, capture_output=True, text=True
+    ).stdout
+    name, counts, place = re.fullmatch(
+        r"(.*): (\d+ vertices, \d+ triangles), the first at (.*)\n", told
+    ).groups()
+    assert (name, counts) == (
+        "ring",
+        f"{len(mesh.positions)} vertices, {len(mesh.faces)} triangles",
+    )
     far = np.linalg.norm(mesh.positions - np.array(place.split(), float), axis=1).min()
     assert far < 1e-3 * mesh.diagonal
     scene = (tmp_path / "small.glb").read_bytes()
     place = scene.index(b"\x89BSM") + 40
-    (tmp_path / "bad.glb").write_bytes(scene[:place] + bytes([scene[place] ^ 255]) + scene[place + 1 :])
-    refused = subprocess.run([program, tmp_path / "bad.glb"], capture_output=True, text=True, check=False)
+    (tmp_path / "bad.glb").write_bytes(
+        scene[:place] + bytes([scene[place] ^ 255]) + scene[place + 1 :]
+    )
+    refused = subprocess.run(
+        [program, tmp_path / "bad.glb"], capture_output=True, text=True, check=False
+    )
     assert refused.returncode == 1 and "checksum" in refused.stderr
 
 
 def test_the_example_goes_through_all_frames(tmp_path: Path) -> None:
-    flags, example = ("-std=c++17", "-Wall", "-Wextra", "-Werror"), ROOT / "library/examples/frames.cpp"
+    flags, example = (
+        ("-std=c++17", "-Wall", "-Wextra", "-Werror"),
+        ROOT / "library/examples/frames.cpp",
+    )
     frames = linked(compiled(), example, tmp_path / "frames", *flags, compiler="c++")
     vector = VECTORS / "good-sequence-long.bsm"
-    lines = subprocess.run([frames, vector, "2"], check=True, capture_output=True, text=True).stdout.splitlines()
+    lines = subprocess.run(
+        [frames, vector, "2"], check=True, capture_output=True, text=True
+    ).stdout.splitlines()
     positions, faces = bsm.decode_sequence(vector.read_bytes())
     expected = [
         f"frame {index} of {len(positions)}: {len(faces)} faces, x from {x.min():.6g} to {x.max():.6g}"
         for index, x in enumerate(positions[:, :, 0].astype(np.float32))
     ]
     assert lines == expected[2:]
-    refused = subprocess.run([frames, VECTORS / "bad-sequence-beyond.bsm"], capture_output=True, text=True, check=False)
+    refused = subprocess.run(
+        [frames, VECTORS / "bad-sequence-beyond.bsm"], capture_output=True, text=True, check=False
+    )
     assert refused.returncode == 1
     assert "frame" in refused.stderr

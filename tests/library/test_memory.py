@@ -36,7 +36,14 @@ int main(int count, char **names) {
 }
 """
 CARELESS = '#include "bitstream/context.h"\nvoid go_on(Arena *arena, Ints *values) { take_ints(arena, 3, values); }\n'
-SAMPLE = ("exact-tiny", "packed-zstd", "pieces-follow", "attribute-colors", "exact-splits", "sequence-learnt")
+SAMPLE = (
+    "exact-tiny",
+    "packed-zstd",
+    "pieces-follow",
+    "attribute-colors",
+    "exact-splits",
+    "sequence-learnt",
+)
 
 
 def test_a_host_without_memory_gets_an_error_and_nothing_else(tmp_path: Path) -> None:
@@ -56,7 +63,9 @@ def test_memory_is_taken_by_what_says_whether_it_is_there() -> None:
             assert not re.search(FOUND, others), path.name
 
 
-@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="/proc of Linux says how much memory there was")
+@pytest.mark.skipif(
+    not sys.platform.startswith("linux"), reason="/proc of Linux says how much memory there was"
+)
 def test_decoding_again_takes_no_more_memory(tmp_path: Path) -> None:
     stream = tmp_path / "knot.bsm"
     stream.write_bytes(bsm.encode(knot(12_000), step=2.0**-10, smoothing=1.0, coefficients=48))
@@ -73,13 +82,24 @@ def test_no_answer_of_a_function_is_ignored(tmp_path: Path) -> None:
     (tmp_path / "careless.c").write_text(CARELESS, encoding="ascii")
     checked = tmp_path / "checked.h"
     checked.write_text(
-        "#include <stdbool.h>\n#undef bool\n#define bool __attribute__((warn_unused_result)) _Bool\n", encoding="ascii"
+        "#include <stdbool.h>\n#undef bool\n#define bool __attribute__((warn_unused_result)) _Bool\n",
+        encoding="ascii",
     )
-    flags = ["-std=gnu11", "-O0", f"-I{ROOT}", "-DKERNEL_ONE_TARGET", "-Wno-attributes", "-include", str(checked)]
+    flags = [
+        "-std=gnu11",
+        "-O0",
+        f"-I{ROOT}",
+        "-DKERNEL_ONE_TARGET",
+        "-Wno-attributes",
+        "-include",
+        str(checked),
+    ]
     ignored = {}
     for path in [tmp_path / "careless.c", *(path for path in LIBRARY if path.name != "host.c")]:
         command = ["cc", *flags, "-c", str(path), "-o", str(tmp_path / "object.o")]
         run = subprocess.run(command, cwd=tmp_path, text=True, capture_output=True, check=True)
-        ignored[path.name] = set(re.findall(r"ignoring return value of .(\w+)", run.stderr)) - {"fail_with"}
+        ignored[path.name] = set(re.findall(r"ignoring return value of .(\w+)", run.stderr)) - {
+            "fail_with"
+        }
     assert ignored.pop("careless.c") == {"take_ints"}
     assert not {name: found for name, found in ignored.items() if found}

@@ -15,14 +15,26 @@ from tools.attack.threads import decoded, difference, streams
 from tools.bsmdec import Decoded, Event, Limits, Options, Parallel, decode
 
 VECTORS = ROOT / "spec/vectors"
-NAMES = ("good-refined-steep", "good-keys", "good-layer-chunks", "good-independent-predicted", "bad-refinement-short")
+NAMES = (
+    "good-refined-steep",
+    "good-keys",
+    "good-layer-chunks",
+    "good-independent-predicted",
+    "bad-refinement-short",
+)
 
 
 def same(first: Decoded, other: Decoded) -> bool:
     """Return whether two decoders reported the same."""
     assert first.arrays.keys() == other.arrays.keys()
-    assert all(np.array_equal(first.arrays[key], other.arrays[key], equal_nan=True) for key in first.arrays)
-    return (first.status, first.message, first.losses) == (other.status, other.message, other.losses)
+    assert all(
+        np.array_equal(first.arrays[key], other.arrays[key], equal_nan=True) for key in first.arrays
+    )
+    return (first.status, first.message, first.losses) == (
+        other.status,
+        other.message,
+        other.losses,
+    )
 
 
 def damaged(stream: bytes, step: int) -> Iterator[bytes]:
@@ -74,14 +86,24 @@ def test_threads_touch_nothing_together(tmp_path: Path) -> None:
     (tmp_path / "bsmdec.c").write_text(amalgamated())
     (tmp_path / "bsmdec.h").write_text(interface())
     program, example = tmp_path / "threads", ROOT / "library/examples/threads.c"
-    flags = ["-fsanitize=thread", "-O1", "-g", "-DKERNEL_ONE_TARGET", "-ffp-contract=off", "-w", "-I."]
+    flags = [
+        "-fsanitize=thread",
+        "-O1",
+        "-g",
+        "-DKERNEL_ONE_TARGET",
+        "-ffp-contract=off",
+        "-w",
+        "-I.",
+    ]
     command = ["cc", *flags, str(example), "bsmdec.c", "-lm", "-pthread", "-o", str(program)]
     subprocess.run(command, check=True, cwd=tmp_path)
     for name in NAMES[:4]:
         problems = []
         for threads in ("1", "3"):
             path = VECTORS / "1.0" / f"{name}.bsm"
-            run = subprocess.run([program, path, threads], capture_output=True, text=True, check=True)
+            run = subprocess.run(
+                [program, path, threads], capture_output=True, text=True, check=True
+            )
             assert "WARNING" not in run.stderr
             problems.append(run.stdout)
         assert problems[0] == problems[1]
@@ -103,7 +125,9 @@ def test_many_losses_take_no_more_time_than_vertices_may(library: ctypes.CDLL) -
 
 def test_looking_at_a_place_again_costs_nothing(library: ctypes.CDLL) -> None:
     """Behind a damaged BLOCK of 1 byte stands a tag of one of 320, for whose rest the search waits."""
-    stream = (ROOT / "spec/vectors/1.0/good-keys.bsm").read_bytes()[:SECOND_BLOCK] + b"\x16\x86\x28\0\x80\0"
+    stream = (ROOT / "spec/vectors/1.0/good-keys.bsm").read_bytes()[
+        :SECOND_BLOCK
+    ] + b"\x16\x86\x28\0\x80\0"
     limits, event = Limits(), Event()
     library.bsmdec_default_limits(byref(limits), ctypes.sizeof(limits))
     limits.bounds[MOST_WORK] = 1e9

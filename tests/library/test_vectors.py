@@ -31,7 +31,11 @@ def test_the_decoder_of_1_0_and_todays_agree_on_mutants() -> None:
     tally, found = compare(released(), 150, "test")
     # Release 1.0 compares rows of attributes with the mesh before it decodes the section; the first error counts.
     # It does not know the fields that came with 1.1.
-    assert not [text for text in found if "values where" not in text and "is unknown to this decoder" not in text]
+    assert not [
+        text
+        for text in found
+        if "values where" not in text and "is unknown to this decoder" not in text
+    ]
     assert tally["status 4"] > 50
     assert tally["status 0"] > 0
 

@@ -22,7 +22,9 @@ def dictionary(block, previous, width, how):
     if not follows or not block.connected():
         hashes = [[law.hash_entry(r, j) for j in range(width)] for r in range(block.size)]
         start = start + (2.0**-8 if follows else 0.25) * np.array(hashes)
-    power, iterations, shift = (how.power, how.iterations, how.shift) if follows else (2, 128, 2.0**-5)
+    power, iterations, shift = (
+        (how.power, how.iterations, how.shift) if follows else (2, 128, 2.0**-5)
+    )
     inverse = np.linalg.inv(block.laplacian + shift * np.eye(block.size))
     inverse = np.linalg.matrix_power(inverse, power)
     for _ in range(iterations):
@@ -36,10 +38,14 @@ def decode(header, frames):
     faces = decode_connectivity(payloads[law.CONNECTIVITY], header.vertices, header.faces)
     graph, how, basis = neighbors_of(faces, header.vertices), header.constants, None
     labels = labels_of(payloads[law.PARTITION], graph, header.blocks)
-    cores = [[v for v, label in enumerate(labels) if label == part] for part in range(header.blocks)]
+    cores = [
+        [v for v, label in enumerate(labels) if label == part] for part in range(header.blocks)
+    ]
     sums, weights = np.zeros((header.vertices, 3)), np.zeros(header.vertices)
     coded = [law.varints(payload, 2) for kind, payload in frames if kind == law.BLOCK]
-    for part, (_, width, payload) in zip(law.chain_of(graph, labels, header.blocks), coded, strict=True):
+    for part, (_, width, payload) in zip(
+        law.chain_of(graph, labels, header.blocks), coded, strict=True
+    ):
         block = law.Block(graph, law.grow(graph, cores[part], header.block_size))
         basis = dictionary(block, basis, width, how)
         coefficients = unpacked(payload, width, how.bits) * header.step

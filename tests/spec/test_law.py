@@ -36,7 +36,10 @@ def rules() -> set[str]:
                 letter = sections[0][0]
                 found |= {f"{section} {number}" for section, number in sections}
             for other, number in re.findall(r"\*\*(?:([FMCVASD]) )?(\d+\.\d+)\*\*", line):
-                found |= {f"{other or letter} {number}", f"{other or letter} {number.split('.')[0]}"}
+                found |= {
+                    f"{other or letter} {number}",
+                    f"{other or letter} {number.split('.')[0]}",
+                }
     return found
 
 
@@ -44,7 +47,9 @@ RULES = rules()
 
 
 def unknown(text: str) -> set[str]:
-    return {f"{letter} {section}{rule}" for letter, section, rule in re.findall(CITED, text)} - RULES
+    return {
+        f"{letter} {section}{rule}" for letter, section, rule in re.findall(CITED, text)
+    } - RULES
 
 
 @pytest.mark.parametrize("name", LAW)
@@ -55,25 +60,43 @@ def test_it_cites_rules_that_exist(name):
 def test_code_cites_rules_that_exist():
     root = SPEC.parent
     folders = "spec/*.py", "bitstream", "codec", "src/bsm", "tools/vectors", "web/src", "tools/*.py"
-    names = subprocess.run(["git", "ls-files", *folders], cwd=root, capture_output=True, text=True, check=True).stdout
-    texts = {name: root / name for name in names.split() if name.endswith((".py", ".c", ".h", ".ts", ".md"))}
-    wrong = {name: cited for name, path in texts.items() if path.is_file() and (cited := unknown(path.read_text()))}
+    names = subprocess.run(
+        ["git", "ls-files", *folders], cwd=root, capture_output=True, text=True, check=True
+    ).stdout
+    texts = {
+        name: root / name
+        for name in names.split()
+        if name.endswith((".py", ".c", ".h", ".ts", ".md"))
+    }
+    wrong = {
+        name: cited
+        for name, path in texts.items()
+        if path.is_file() and (cited := unknown(path.read_text()))
+    }
     assert not wrong
 
 
 def test_the_example_is_the_vector():
     document = (FOLDER.parent / "README.md").read_text()
-    section = document[document.index("## A worked example") : document.index("## Two worked blocks")]
-    assert example() in section, "run python -m tools.vectors --example and put it into spec/vectors/README.md"
+    section = document[
+        document.index("## A worked example") : document.index("## Two worked blocks")
+    ]
+    assert example() in section, (
+        "run python -m tools.vectors --example and put it into spec/vectors/README.md"
+    )
     shown = re.findall(r"^    ((?:[0-9a-f]{2} )*[0-9a-f]{2})  ", section, re.MULTILINE)
     assert bytes.fromhex(" ".join(shown)) == (FOLDER / f"{NAME}.bsm").read_bytes()
     with np.load(FOLDER / f"{NAME}.npz") as expected:
-        positions = [[float(word) for word in line.split()] for line in section.rstrip().splitlines()[-4:]]
+        positions = [
+            [float(word) for word in line.split()] for line in section.rstrip().splitlines()[-4:]
+        ]
         assert np.abs(positions - expected["positions"]).max() < 1e-6
 
 
 def test_the_worked_blocks_are_those_of_the_reference_decoder():
-    assert worked_blocks() in (FOLDER.parent / "README.md").read_text(), "run python -m tools.vectors --example"
+    assert worked_blocks() in (FOLDER.parent / "README.md").read_text(), (
+        "run python -m tools.vectors --example"
+    )
 
 
 @pytest.mark.parametrize(
@@ -86,12 +109,22 @@ def test_the_worked_blocks_are_those_of_the_reference_decoder():
 def test_the_learnt_numbers_are_named(name, built, documents):
     data = (SPEC / f"{name}.bin").read_bytes()
     assert built() == data, "the kernels were built from other numbers: tools/build_kernels.sh"
-    assert all(hashlib.sha256(data).hexdigest() in (SPEC / document).read_text() for document in documents)
+    assert all(
+        hashlib.sha256(data).hexdigest() in (SPEC / document).read_text() for document in documents
+    )
 
 
 @pytest.mark.skipif(shutil.which("file") is None, reason="file(1) is not here")
 def test_other_programs_tell_a_stream_by_its_first_bytes():
-    command = ["file", "-m", SPEC / "media/bsm.magic", "--brief", "--mime-type", FOLDER / f"{NAME}.bsm", __file__]
+    command = [
+        "file",
+        "-m",
+        SPEC / "media/bsm.magic",
+        "--brief",
+        "--mime-type",
+        FOLDER / f"{NAME}.bsm",
+        __file__,
+    ]
     printed = subprocess.run(command, capture_output=True, text=True, check=True).stdout.split()
     assert printed[0] == "model/vnd.bsm" and printed[0] != printed[1]
 
@@ -126,7 +159,9 @@ def test_a_later_minor_version_is_read_and_reported(capsys):
 
 
 @pytest.mark.parametrize(
-    "later", sorted((FOLDER.parent / "1.1").glob("good-congruence-*-later.bsm")), ids=lambda path: path.stem
+    "later",
+    sorted((FOLDER.parent / "1.1").glob("good-congruence-*-later.bsm")),
+    ids=lambda path: path.stem,
 )
 def test_a_minor_version_that_is_too_small_changes_nothing(later):
     """Streams with congruent parts are of 1.1; those that say 1.0 are decoded to the same (F 2.2)."""
@@ -141,9 +176,9 @@ def test_the_vectors_of_1_0_are_what_they_were():
     digest = hashlib.sha256()
     for path in sorted(FOLDER.iterdir()):
         digest.update(path.name.encode() + b"\0" + hashlib.sha256(path.read_bytes()).digest())
-    assert digest.hexdigest() == "38bc56c979efa2149192b3bdee80a09b17d64e7059141d3d8c902c05bb96d22b", (
-        "the vectors of 1.0 stay; new ones belong into the folder of a later version"
-    )
+    assert (
+        digest.hexdigest() == "38bc56c979efa2149192b3bdee80a09b17d64e7059141d3d8c902c05bb96d22b"
+    ), "the vectors of 1.0 stay; new ones belong into the folder of a later version"
 
 
 @pytest.fixture(scope="module")
@@ -167,7 +202,9 @@ answer may need an extension that 1.0 does not have."""
 @pytest.mark.parametrize("options", WRITTEN.values(), ids=WRITTEN)
 def test_1_0_decodes_what_is_written_today(options, earlier):
     mesh = with_attributes(shuffled(torus(20, 16)), charts, creases, colors, groups)
-    stream = bsm.encode(mesh, bsm.EncodeOptions(**options | {"congruence": False, "effort": "best"}))
+    stream = bsm.encode(
+        mesh, bsm.EncodeOptions(**options | {"congruence": False, "effort": "best"})
+    )
     found, mesh = decode(earlier, stream), bsm.decode(stream)
     right = {"positions": mesh.positions, "faces": mesh.faces} | arrays_of(mesh.attributes)
     assert found.status == 0, found.message

@@ -37,7 +37,9 @@ def off(decoder, stream):
     return np.linalg.norm(theirs - ours.positions, axis=1).max() / ours.diagonal
 
 
-@pytest.mark.parametrize("options", [{}, {"keep": 0.1, "power": 1, "iterations": 2}, {"keep": 0.2, "power": 3}])
+@pytest.mark.parametrize(
+    "options", [{}, {"keep": 0.1, "power": 1, "iterations": 2}, {"keep": 0.2, "power": 3}]
+)
 def test_a_decoder_from_the_paper_agrees(options, numpy_decoder):
     stream = bsm.encode(torus(30, 24, bumps=0.1), preset="paper", block_size=120, **options)
     assert off(numpy_decoder, stream) < 1e-3
@@ -48,17 +50,26 @@ def test_a_decoder_from_the_paper_agrees(options, numpy_decoder):
 @pytest.mark.parametrize("name", ["fandisk_6475", "bunny_34834"])
 @pytest.mark.parametrize("options", [{"keep": 0.1}, {}], ids=["fixed c", "DOI"])
 def test_a_decoder_from_the_paper_agrees_on_real_meshes(name, options, numpy_decoder, meshes):
-    assert off(numpy_decoder, bsm.encode(meshes / "static" / f"{name}.ply", preset="paper", **options)) < 1e-3
+    assert (
+        off(numpy_decoder, bsm.encode(meshes / "static" / f"{name}.ply", preset="paper", **options))
+        < 1e-3
+    )
 
 
-@pytest.mark.parametrize("options", [{}, {"keep": 0.4, "power": 3, "iterations": 2}, {"keep": 0.3, "power": 2}])
+@pytest.mark.parametrize(
+    "options", [{}, {"keep": 0.4, "power": 3, "iterations": 2}, {"keep": 0.3, "power": 2}]
+)
 def test_streams_of_the_preset_come_back_with_the_same_bits(options, reference):
     stream = bsm.encode(torus(30, 24, bumps=0.1), preset="paper", block_size=90, **options)
     header = info_of(stream).header
     assert header.onorm == header.constants.power > 1 and stream[4] == 0x11  # 1.1 brought `onorm`
     positions, faces, skipped = reference.decode(stream)
     ours = bsm.decode(stream)
-    assert np.array_equal(positions, ours.positions) and np.array_equal(faces, ours.faces) and not skipped
+    assert (
+        np.array_equal(positions, ours.positions)
+        and np.array_equal(faces, ours.faces)
+        and not skipped
+    )
 
 
 @pytest.mark.real

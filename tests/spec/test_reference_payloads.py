@@ -25,7 +25,9 @@ from tests.bitstream.fields.fields import KINDS, SOUPS, encode, field_of, values
 from tools.payloads import decode_connectivity
 
 SPEC = Path(__file__).parents[2] / "spec"
-CONNECTIVITY, FIELDS = ((SPEC / f"core-{name}.md").read_text() for name in ("2-connectivity", "4-fields"))
+CONNECTIVITY, FIELDS = (
+    (SPEC / f"core-{name}.md").read_text() for name in ("2-connectivity", "4-fields")
+)
 REFERENCE_ERRORS = (reference.CorruptError, reference.TruncatedError, reference.LimitError)
 CHUNKS = st.sampled_from([1, 7, 100])
 SEEDS = st.integers(0, 2**32 - 1)
@@ -78,7 +80,11 @@ def test_faces(soup, data):
     graph = graph_of_faces(encoded.faces, vertices)
     neighbors = reference.neighbors_of(encoded.faces.tolist(), vertices)
     assert neighbors == [list(row) for row in np.split(graph.neighbors, graph.offsets[1:-1])]
-    check_faces(damaged(encoded.payload, data), vertices, len(faces) + data.draw(st.sampled_from([0, 0, 0, 1])))
+    check_faces(
+        damaged(encoded.payload, data),
+        vertices,
+        len(faces) + data.draw(st.sampled_from([0, 0, 0, 1])),
+    )
 
 
 def test_the_tables_of_the_coder_are_those_of_the_document() -> None:
@@ -99,7 +105,9 @@ void *tables[] = {SQUASH, STRETCH, RECIPROCAL, SURVIVAL, ODDS, LESS};
 def test_kernels_compute_the_tables_of_the_document(tmp_path: Path) -> None:
     (tmp_path / "tables.c").write_text(TABLES)
     flags = ["-std=gnu11", "-O2", "-fPIC", "-shared", "-I", str(SPEC.parent)]
-    subprocess.run(["cc", *flags, tmp_path / "tables.c", "-lm", "-o", tmp_path / "tables.so"], check=True)
+    subprocess.run(
+        ["cc", *flags, tmp_path / "tables.c", "-lm", "-o", tmp_path / "tables.so"], check=True
+    )
     library = ctypes.CDLL(str(tmp_path / "tables.so"))
     library.make_tables()
     places = (ctypes.c_void_p * 6).in_dll(library, "tables")
@@ -125,7 +133,9 @@ def numbers(line: str) -> list[list[int]]:
     return [[int(corner) for corner in face.split()] for face in line.split("/")]
 
 
-EXAMPLES = lines((SPEC / "vectors" / "README.md").read_text().partition("(C 11)")[2].partition("\n## ")[0])
+EXAMPLES = lines(
+    (SPEC / "vectors" / "README.md").read_text().partition("(C 11)")[2].partition("\n## ")[0]
+)
 
 
 def test_the_tetrahedron_of_the_document() -> None:
@@ -145,7 +155,9 @@ def test_the_decisions_of_the_tetrahedron(monkeypatch: pytest.MonkeyPatch) -> No
 
     monkeypatch.setattr(reference.RangeDecoder, "bit", record)
     reference.decode_connectivity(bytes.fromhex(EXAMPLES[0]), 4, 4)
-    rows = [re.findall(r"([0-9a-f]+) +([0-9a-f]+) +(\d+) ([01]) \S", line) for line in EXAMPLES[2:-3]]
+    rows = [
+        re.findall(r"([0-9a-f]+) +([0-9a-f]+) +(\d+) ([01]) \S", line) for line in EXAMPLES[2:-3]
+    ]
     assert [row[0] for row in rows] + [row[1] for row in rows if len(row) > 1] == seen
 
 
@@ -183,13 +195,24 @@ def check_field(field, given, chunk, data, reader):
     """Both decoders on the payloads, and with one of them damaged."""
     chunks = encode(field, given, chunk)
     which = data.draw(st.integers(0, len(chunks) - 1))
-    broken = [*chunks[:which], (damaged(chunks[which][0], data), chunks[which][1]), *chunks[which + 1 :]]
+    broken = [
+        *chunks[:which],
+        (damaged(chunks[which][0], data), chunks[which][1]),
+        *chunks[which + 1 :],
+    ]
     for payloads in (chunks, broken):
         assert read(plain(reader()), payloads) == read(product(field), payloads)
 
 
 @quick
-@given(SOUPS, st.tuples(*[st.sampled_from([0, 1, 100, MOST_GRID])] * 3), KINDS, SEEDS, CHUNKS, st.data())
+@given(
+    SOUPS,
+    st.tuples(*[st.sampled_from([0, 1, 100, MOST_GRID])] * 3),
+    KINDS,
+    SEEDS,
+    CHUNKS,
+    st.data(),
+)
 def test_grids(mesh, largest, kind, seed, chunk, data):
     faces, vertices = mesh
     if not vertices:
@@ -197,7 +220,13 @@ def test_grids(mesh, largest, kind, seed, chunk, data):
     field = field_of("grid", faces, vertices, largest)
     assert reference.Mesh(faces.tolist(), vertices, True).order == field.order().tolist()
     positions = values(vertices, (0, 0, 0), largest, kind, seed)
-    check_field(field, positions, chunk, data, lambda: reference.GridReader(faces.tolist(), vertices, list(largest)))
+    check_field(
+        field,
+        positions,
+        chunk,
+        data,
+        lambda: reference.GridReader(faces.tolist(), vertices, list(largest)),
+    )
 
 
 @quick
@@ -213,13 +242,29 @@ def test_levels(mesh, most, kind, seed, chunk, data):
 
 def test_positions_of_a_lattice():
     points = np.arange(30, dtype=np.int32).reshape(10, 3)
-    header = {"lattice": [4095, 29], "center": [0.5, -1.0, 2.0], "scale": 0.25, "corner": [], "turn": [0.0] * 3}
+    header = {
+        "lattice": [4095, 29],
+        "center": [0.5, -1.0, 2.0],
+        "scale": 0.25,
+        "corner": [],
+        "turn": [0.0] * 3,
+    }
     expected = [reference.place(row, header) for row in points.tolist()]
     cells = (2 * points * 4095 + 29) // (2 * 29)
     assert expected == (np.array([0.5, -1.0, 2.0]) + 0.25 * cells).tolist()
-    header = {"lattice": [], "center": [0.0, 0.0, 0.0], "scale": 0.1, "corner": [], "turn": [0.0] * 3}
+    header = {
+        "lattice": [],
+        "center": [0.0, 0.0, 0.0],
+        "scale": 0.1,
+        "corner": [],
+        "turn": [0.0] * 3,
+    }
     assert reference.place([1, 2, 3], header) == [0.1, 0.2, 0.1 * 3]
-    assert reference.place([1, 2, 3], header | {"corner": [-3, 5, 70000]}) == [0.1 * -2, 0.1 * 7, 0.1 * 70003]
+    assert reference.place([1, 2, 3], header | {"corner": [-3, 5, 70000]}) == [
+        0.1 * -2,
+        0.1 * 7,
+        0.1 * 70003,
+    ]
 
 
 def test_the_tables_of_fields_are_those_of_the_document():

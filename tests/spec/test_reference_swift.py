@@ -54,7 +54,11 @@ def test_rows(name, mesh, reach, kind, seed, chunk, data):
     field = field_of(name, faces, vertices, largest, at)
     chunks = encode(field, offered(name, vertices, largest, kind, seed), chunk)
     which = data.draw(st.integers(0, len(chunks) - 1))
-    broken = [*chunks[:which], (damaged(chunks[which][0], data), chunks[which][1]), *chunks[which + 1 :]]
+    broken = [
+        *chunks[:which],
+        (damaged(chunks[which][0], data), chunks[which][1]),
+        *chunks[which + 1 :],
+    ]
     for payloads in (chunks, broken):
         geometry = None if at is None else at.tolist()
         rows = reference.Rows(faces.tolist(), vertices, largest, swift, normals, geometry)
@@ -62,7 +66,9 @@ def test_rows(name, mesh, reach, kind, seed, chunk, data):
 
 
 @quick
-@given(SOUPS, st.sampled_from([0, 1, 9, MOST_GRID]), st.sampled_from([1, 3, 1 << 20]), SEEDS, st.data())
+@given(
+    SOUPS, st.sampled_from([0, 1, 9, MOST_GRID]), st.sampled_from([1, 3, 1 << 20]), SEEDS, st.data()
+)
 def test_tangents(mesh, reach, most, seed, data):
     faces = np.array(mesh[0], np.int32).reshape(-1, 3)
     if not len(faces):
@@ -79,16 +85,25 @@ def test_tangents(mesh, reach, most, seed, data):
     normals = np.where(random.random((len(rows), 1)) < 0.3, whole, normals)
     normals /= np.linalg.norm(normals, axis=1, keepdims=True)
     size = data.draw(st.sampled_from([1, 2, 256, 32768]))
-    words = np.column_stack([random.integers(0, 4 * size + 1, len(rows)), random.integers(0, 2, len(rows))])
+    words = np.column_stack(
+        [random.integers(0, 4 * size + 1, len(rows)), random.integers(0, 2, len(rows))]
+    )
 
     def tangents(turns):
-        surface = faces.tolist(), [base.tolist() for base in bases], at.tolist(), coordinates.tolist()
+        surface = (
+            faces.tolist(),
+            [base.tolist() for base in bases],
+            at.tolist(),
+            coordinates.tolist(),
+        )
         return reference.tangents(*surface, normals.tolist(), 4 * size, np.asarray(turns).tolist())
 
     wanted = np.array(tangents(words))
     vertices = np.arange(len(rows), dtype=np.int32)
     own = faces.reshape(-1).copy()
-    found, values, error = turned_tangents(faces, *bases, at, coordinates, vertices, own, normals, wanted, size)
+    found, values, error = turned_tangents(
+        faces, *bases, at, coordinates, vertices, own, normals, wanted, size
+    )
     assert error < 1e-5  # degrees: the tangents are those of some turns
     assert values.tolist() == tangents(found)
     other = wanted * [1.0, 1.0, 1.0, -1.0] + np.cross(wanted[:, :3], normals) @ np.eye(3, 4) * 9.0
@@ -102,7 +117,10 @@ def test_split_rows(effort):
     """Edges of more than two faces: corners of rows are partners by the rows, whatever those of the mesh are."""
     random = np.random.default_rng(6)
     faces = np.array(list(permutations(range(6), 3)))
-    values, indices = random.random((2, 2)).astype(np.float32), random.integers(0, 2, faces.shape).astype(np.int32)
+    values, indices = (
+        random.random((2, 2)).astype(np.float32),
+        random.integers(0, 2, faces.shape).astype(np.int32),
+    )
     coordinates = bsm.Attribute("uv", values, "corner", "texcoord", indices)
     mesh = bsm.TriangleMesh(random.random((6, 3)), faces, (coordinates,))
     stream = bsm.encode(mesh, grid=9, effort=effort, attributes={"uv": "9bits"})
@@ -113,19 +131,30 @@ def test_split_rows(effort):
     assert rows.attribute.values.tolist() == numbers.astype(np.float32).tolist()
 
 
-STREAMS = [v for v in read_manifest() if v.error is None and "good-swift" in v.name and "order" not in v.name]
+STREAMS = [
+    v
+    for v in read_manifest()
+    if v.error is None and "good-swift" in v.name and "order" not in v.name
+]
 
 
 @pytest.mark.parametrize("vector", STREAMS, ids=lambda vector: vector.name)
 def test_streams(vector):
     attributes = rows_of(vector.stream.read_bytes())
-    words = {index: rows.read(reference) for index, rows in attributes.items() if rows.declaration.rows}
+    words = {
+        index: rows.read(reference) for index, rows in attributes.items() if rows.declaration.rows
+    }
     assert all(len(words[index]) == rows.declaration.rows for index, rows in attributes.items())
     for index, rows in attributes.items():
         if rows.declaration.coding != TANGENTS:
             continue
         normals, coordinates = (attributes[base - 1] for base in rows.declaration.bases)
         values = normals.attribute.values.astype(np.float64).tolist()
-        faces = rows.faces, (normals.faces, coordinates.faces), rows.places, words[rows.declaration.bases[1] - 1]
+        faces = (
+            rows.faces,
+            (normals.faces, coordinates.faces),
+            rows.places,
+            words[rows.declaration.bases[1] - 1],
+        )
         tangents = reference.tangents(*faces, values, rows.declaration.largest[0], words[index])
         np.testing.assert_array_equal(np.float32(tangents), rows.attribute.values)

@@ -55,11 +55,18 @@ def test_product(vector):
 
 def triangles(positions, faces):
     """What a mesh is whatever the order of its vertices and faces."""
-    return sorted(min(np.roll(triangle, -k, 0).ravel().tolist() for k in range(3)) for triangle in positions[faces])
+    return sorted(
+        min(np.roll(triangle, -k, 0).ravel().tolist() for k in range(3))
+        for triangle in positions[faces]
+    )
 
 
 @pytest.mark.parametrize(
-    "vector", [pytest.param(v, id=v.name, marks=[pytest.mark.slow] * bool(LONG.match(v.name))) for v in VECTORS]
+    "vector",
+    [
+        pytest.param(v, id=v.name, marks=[pytest.mark.slow] * bool(LONG.match(v.name)))
+        for v in VECTORS
+    ],
 )
 def test_reference_decoder(vector, reference):
     """All of the core as the manifest says; of extensions that it says it lacks, and shapes without what it skips."""
@@ -77,18 +84,28 @@ def test_reference_decoder(vector, reference):
             if "order" in skipped:
                 assert triangles(positions, faces) == triangles(right["positions"], right["faces"])
             else:
-                assert np.array_equal(positions, right["positions"]) and np.array_equal(faces, right["faces"])
+                assert np.array_equal(positions, right["positions"]) and np.array_equal(
+                    faces, right["faces"]
+                )
 
 
 def test_every_vector_has_its_files_and_every_file_is_a_vector():
     names = {vector.name for vector in VECTORS}
-    assert names == {path.stem for path in FOLDER.parent.glob("*/*.bsm")} >= GOODS.keys() | BADS.keys()
+    assert (
+        names == {path.stem for path in FOLDER.parent.glob("*/*.bsm")} >= GOODS.keys() | BADS.keys()
+    )
     assert {vector.name for vector in GOOD} == {path.stem for path in FOLDER.parent.glob("*/*.npz")}
 
 
 def test_every_prefix_says_what_its_error_is():
     for vector in VECTORS:
-        kind = "good" if vector.error is None else "unsupported" if vector.error == "unsupported" else "bad"
+        kind = (
+            "good"
+            if vector.error is None
+            else "unsupported"
+            if vector.error == "unsupported"
+            else "bad"
+        )
         assert vector.name.startswith(f"{kind}-")
 
 
@@ -116,11 +133,15 @@ def test_the_runner_needs_nothing_of_the_project(tmp_path):
     decoder = f"{sys.executable} {SPEC / 'reference_decoder.py'} {{in}} {{out}}"
     command = [sys.executable, "-I", "run.py", decoder, "--needs", "core", "--only", "good-one"]
     done = subprocess.run(command, cwd=tmp_path / "vectors", capture_output=True, text=True)
-    assert done.stdout == "3 of 3 vectors are treated as they should be\n", done.stdout + done.stderr
+    assert done.stdout == "3 of 3 vectors are treated as they should be\n", (
+        done.stdout + done.stderr
+    )
 
 
 def test_it_is_known_what_each_vector_needs():
-    assert json.loads(NEEDS.read_text()) == {vector.name: needs_of(vector.stream.read_bytes()) for vector in VECTORS}
+    assert json.loads(NEEDS.read_text()) == {
+        vector.name: needs_of(vector.stream.read_bytes()) for vector in VECTORS
+    }
 
 
 @named([vector for vector in GOOD if not vector.name.startswith("good-sequence")])
@@ -129,7 +150,10 @@ def test_threads_and_events_change_nothing(vector):
     whole = decode(data, threads=1)
     assert np.array_equal(decode(data, threads=2).positions, whole.positions)
     positions = np.full_like(whole.positions, np.nan)
-    arrays, places = arrays_of(whole.attributes), {attribute.name: i for i, attribute in enumerate(whole.attributes)}
+    arrays, places = (
+        arrays_of(whole.attributes),
+        {attribute.name: i for i, attribute in enumerate(whole.attributes)},
+    )
     for event in events_of(data, threads=2):
         if isinstance(event, AttributeEvent):
             name = f"attribute {places[event.name]} {event.semantic} {event.domain} {event.name}"
@@ -153,7 +177,9 @@ def test_truncations_are_refused(vector):
                 decode(data[:length], threads=1)
 
 
-@pytest.mark.parametrize("name", ["good-tetrahedron", "good-chain", "good-sequence-one", "good-brief-plain"])
+@pytest.mark.parametrize(
+    "name", ["good-tetrahedron", "good-chain", "good-sequence-one", "good-brief-plain"]
+)
 def test_every_changed_byte_is_refused(name):
     data = next(vector for vector in VECTORS if vector.name == name).stream.read_bytes()
     decoder = decode_sequence if name.startswith("good-sequence") else decode

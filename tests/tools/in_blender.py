@@ -53,7 +53,9 @@ def sequence():
     bpy.ops.wm.open_mainfile(filepath=str(folder / "project" / "a.blend"))
     found["restored"] = objects.restore_caches()
     found["cache"] = bpy.data.objects["moving"].modifiers[0].filepath
-    found["exact again"] = bool(np.array_equal(all_frames(bpy.data.objects["moving"]), decoded.astype(np.float32)))
+    found["exact again"] = bool(
+        np.array_equal(all_frames(bpy.data.objects["moving"]), decoded.astype(np.float32))
+    )
 
 
 def rig():
@@ -65,14 +67,20 @@ def rig():
     scene.frame_start, scene.frame_end, found["rig"] = 1, len(given), []
     for kind in ("PC2", "MDD"):
         cache = own.modifiers.new("cache", "MESH_CACHE")
-        cache.cache_format, cache.filepath, cache.frame_start = kind, str(folder / f"out.{kind.lower()}"), 1
+        cache.cache_format, cache.filepath, cache.frame_start = (
+            kind,
+            str(folder / f"out.{kind.lower()}"),
+            1,
+        )
         shown = all_frames(own)
         near = np.abs(shown - given).max() < 0.01 * np.linalg.norm(np.ptp(given[0], axis=0))
         found["rig"] += [list(shown.shape), bool(near)]
         own.modifiers.clear()
     (made,) = objects.import_file(str(folder / "pc2.bsm"))
     turns = {"own": own.rotation_euler, "stream": made.rotation_euler}
-    found["axes"] = {name: [round(np.degrees(angle)) for angle in turn] for name, turn in turns.items()}
+    found["axes"] = {
+        name: [round(np.degrees(angle)) for angle in turn] for name, turn in turns.items()
+    }
 
 
 def runs():
@@ -98,10 +106,16 @@ def static():
     """A mesh with attributes and a material, in and out."""
     fresh()
     (made,) = objects.import_file(str(folder / "still.bsm"))
-    found["still"] = sorted(f"{a.name} {a.data_type} {a.domain}" for a in made.data.attributes if a.name[0] != ".")
+    found["still"] = sorted(
+        f"{a.name} {a.data_type} {a.domain}" for a in made.data.attributes if a.name[0] != "."
+    )
     found["material"] = [slot.material.name for slot in made.material_slots]
-    found["color"] = [round(component, 3) for component in shader(made).inputs["Base Color"].default_value]
-    objects.export_object(str(folder / "still_again.bsm"), made, animation=False, preset="near-lossless")
+    found["color"] = [
+        round(component, 3) for component in shader(made).inputs["Base Color"].default_value
+    ]
+    objects.export_object(
+        str(folder / "still_again.bsm"), made, animation=False, preset="near-lossless"
+    )
 
 
 def shader(made):
@@ -160,7 +174,9 @@ def extension():
     found["written"] = [list(done), (folder / "out.bsm").stat().st_size > 100]
     looks = []
     for name, look in (("near", 0.3), ("far", 2.5)):
-        bpy.ops.export_scene.bsm(filepath=str(folder / f"{name}.bsm"), preset="small", look=look, animation=False)
+        bpy.ops.export_scene.bsm(
+            filepath=str(folder / f"{name}.bsm"), preset="small", look=look, animation=False
+        )
         looks.append((folder / f"{name}.bsm").stat().st_size)
     found["looks"] = looks
     (folder / "broken.bsm").write_bytes((folder / "moving.bsm").read_bytes()[:200])
@@ -168,7 +184,9 @@ def extension():
         bpy.ops.import_scene.bsm(filepath=str(folder / "broken.bsm"))
     except RuntimeError as error:
         found["broken"] = str(error)
-    found["handler"] = bpy.types.FileHandler.bl_rna_get_subclass_py("BSM_FH_import").bl_file_extensions
+    found["handler"] = bpy.types.FileHandler.bl_rna_get_subclass_py(
+        "BSM_FH_import"
+    ).bl_file_extensions
     addon.unregister()
 
 

@@ -13,7 +13,9 @@ from tests.bsm.program import python
 )
 def test_real_attributes_are_small(meshes: Path, name: str, what: str, most: float):
     pytest.importorskip("DracoPy")
-    done = python("-m", "tools.measure", "attributes", meshes / "assets" / name, "--grid", 12, text=True)
+    done = python(
+        "-m", "tools.measure", "attributes", meshes / "assets" / name, "--grid", 12, text=True
+    )
     rows = [[cell.strip() for cell in line.split("|")] for line in done.stdout.splitlines()]
     found = {row[2].split(",")[0]: row for row in rows if row[1] == name}
     assert float(found[what][5]) < most and float(found["whole file"][5]) < 0.85

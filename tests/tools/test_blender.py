@@ -28,7 +28,9 @@ def blender():
     if named := os.environ.get("BSM_BPY"):
         return named
     if importlib.util.find_spec("bpy") is None:
-        pytest.skip("needs bpy (pip install bpy==5.0.1), in this environment or in that whose Python BSM_BPY names")
+        pytest.skip(
+            "needs bpy (pip install bpy==5.0.1), in this environment or in that whose Python BSM_BPY names"
+        )
     return sys.executable
 
 
@@ -57,7 +59,9 @@ def folder(tmp_path_factory):
             ["encode", f"rig.{kind}", "-o", f"{kind}.bsm", "--up", "y"],
             ["decode", f"{kind}.bsm", "-o", f"out.{kind}"],
         )
-        assert not any(cli([str(folder / word) if "." in word else word for word in word]) for word in words)
+        assert not any(
+            cli([str(folder / word) if "." in word else word for word in word]) for word in words
+        )
         (folder / "out.obj").unlink()
     return folder
 
@@ -68,14 +72,20 @@ def found(folder):
     words = [blender(), str(Path(__file__).parent / "in_blender.py"), str(folder)]
     path = os.pathsep.join([str(ROOT / "src"), str(ROOT), os.environ.get("PYTHONPATH", "")])
     setting = {**os.environ, "PYTHONPATH": path}
-    done = subprocess.run(words, capture_output=True, text=True, timeout=600, env=setting, check=False)
+    done = subprocess.run(
+        words, capture_output=True, text=True, timeout=600, env=setting, check=False
+    )
     lines = [line for line in done.stdout.splitlines() if line.startswith("FOUND ")]
     assert lines, done.stderr[-4000:]
     return json.loads(lines[0].removeprefix("FOUND "))
 
 
 def test_every_frame_is_the_decoders(found):
-    assert found["exact"] and found["scene"] == pytest.approx([1, 10, 12.5]) and found["uv"] == ["texcoord"]
+    assert (
+        found["exact"]
+        and found["scene"] == pytest.approx([1, 10, 12.5])
+        and found["uv"] == ["texcoord"]
+    )
 
 
 def test_a_cache_plays_on_the_mesh_that_it_was_made_of(found):
@@ -90,7 +100,11 @@ def test_faces_that_change_are_objects_that_take_turns(found, folder):
 
 
 def test_a_project_that_lost_its_cache_is_whole_again(found):
-    assert found["restored"] == ["moving"] and found["cache"] == "//bsm_cache/moving.pc2" and found["exact again"]
+    assert (
+        found["restored"] == ["moving"]
+        and found["cache"] == "//bsm_cache/moving.pc2"
+        and found["exact again"]
+    )
 
 
 def test_a_mesh_keeps_what_it_carries(found, folder):
@@ -98,7 +112,9 @@ def test_a_mesh_keeps_what_it_carries(found, folder):
     assert found["material"] == ["red"] and found["color"] == [1, 0.25, 0, 1]
     again, still = bsm.decode(folder / "still_again.bsm"), bsm.decode(folder / "still.bsm")
     attributes = {attribute.name: attribute for attribute in again.attributes}
-    turned = np.stack([still.positions[:, 0], -still.positions[:, 2], still.positions[:, 1]], axis=1)
+    turned = np.stack(
+        [still.positions[:, 0], -still.positions[:, 2], still.positions[:, 1]], axis=1
+    )
     distance, same = cKDTree(again.positions).query(turned)
     assert distance.max() < 0.01 and again.metadata["up"] == "z"
     colors = next(attribute for attribute in still.attributes if attribute.name == "color").values
@@ -111,7 +127,11 @@ def test_an_object_is_written_as_it_is_seen(found, folder):
     shown = np.load(folder / "monkey.npy")
     decoded, faces = bsm.decode_sequence(folder / "monkey.bsm")
     same = cKDTree(shown[0]).query(decoded[0])[1]
-    assert decoded.shape == shown.shape and len(set(same)) == len(same) and found["exported"]["faces"] == len(faces)
+    assert (
+        decoded.shape == shown.shape
+        and len(set(same)) == len(same)
+        and found["exported"]["faces"] == len(faces)
+    )
     diagonal = np.linalg.norm(np.ptp(shown[0], axis=0))
     assert np.abs(decoded - shown[:, same]).max() < 0.01 * diagonal
     assert "the faces of a sequence stay" in found["changing"] and not (folder / "x.bsm").exists()
@@ -138,6 +158,12 @@ def test_the_zip_has_what_blender_asks_for(tmp_path, capsys):
         names = archive.namelist()
         manifest = tomllib.loads(archive.read("blender_manifest.toml").decode())
     assert {"blender_manifest.toml", "__init__.py", "objects.py", "LICENSE"} < set(names)
-    assert manifest["id"] == "bsm" and manifest["version"].count(".") == 2 and manifest["type"] == "add-on"
-    assert [name.removeprefix("./") for name in manifest["wheels"]] == [name for name in names if name[:6] == "wheels"]
+    assert (
+        manifest["id"] == "bsm"
+        and manifest["version"].count(".") == 2
+        and manifest["type"] == "add-on"
+    )
+    assert [name.removeprefix("./") for name in manifest["wheels"]] == [
+        name for name in names if name[:6] == "wheels"
+    ]
     assert len(manifest["wheels"]) == 2 and manifest["permissions"]["files"]

@@ -37,7 +37,9 @@ REFUSED = {
 LONG = ("moving", "moving-frames", "moving-most", "seams-many", "nested-attribute", "nested-header")
 
 
-@pytest.mark.parametrize("name", [pytest.param(n, marks=pytest.mark.slow) if n in LONG else n for n in REFUSED])
+@pytest.mark.parametrize(
+    "name", [pytest.param(n, marks=pytest.mark.slow) if n in LONG else n for n in REFUSED]
+)
 def test_what_asks_for_too_much_is_refused(name):
     error, about = REFUSED[name]
     taken = decode_all(BOMBS[name](), "events", Limits())
@@ -49,7 +51,11 @@ def test_looks_all_over_memory_are_charged_vertex_by_vertex():
     stream = _apart(ring(64, 64), 6)
     most = decode_all(stream, "events", Limits.wide()).work
     assert most > 4096 * 25_000  # twice what everything else costs
-    for work, outcome in ((most, "decoded"), (most - 1, "LimitError: most_work"), (most / 2, "LimitError: most_work")):
+    for work, outcome in (
+        (most, "decoded"),
+        (most - 1, "LimitError: most_work"),
+        (most / 2, "LimitError: most_work"),
+    ):
         taken = decode_all(stream, "events", replace(Limits.wide(), most_work=work))
         assert taken.outcome.startswith(outcome) and taken.work < work + 32 * 8 * 9 * 100
 

@@ -32,7 +32,9 @@ def samples(monkeypatch):
     ("shape", "vertices", "faces"),
     [("copies", 3, 1000), ("planes", 300, 100), ("slivers", 60, 300), ("random", 10, 800)],
 )
-def test_what_is_drawn_for_small_files_is_bounded_whatever_covers_what(samples, shape, vertices, faces):
+def test_what_is_drawn_for_small_files_is_bounded_whatever_covers_what(
+    samples, shape, vertices, faces
+):
     taken = encoded(Recipe(shape, vertices, faces, 0.0, "none", "balanced", 1).ply, "balanced")
     assert taken.outcome.endswith(" bytes")
     assert 0 < sum(samples) < FEWER
@@ -53,7 +55,13 @@ def test_recipes_are_files_that_are_read_and_mutants_are_others():
     recipe = drawn(random)
     for _ in range(20):
         recipe = changed(recipe, random)
-        small = Recipe(**{**vars(recipe), "vertices": min(recipe.vertices, 300), "faces": min(recipe.faces, 300)})
+        small = Recipe(
+            **{
+                **vars(recipe),
+                "vertices": min(recipe.vertices, 300),
+                "faces": min(recipe.faces, 300),
+            }
+        )
         try:
             assert len(bsm.load(small.ply, limits=bsm.Limits.service()).faces)
         except bsm.MeshError as error:

@@ -38,7 +38,9 @@ def test_outcomes_are_held_against_each_other():
     assert "faces" in tally.hold(CHAIN, (positions, faces[::-1], attributes), decoded)
     assert "shape" in tally.hold(CHAIN, (positions[:-1], faces, attributes), decoded)
     assert "corrupt instead of decoded" in tally.hold(CHAIN, CorruptError("no"), decoded)
-    assert "corrupt instead of truncated" in tally.hold(CHAIN, CorruptError("no"), TruncatedError("yes"))
+    assert "corrupt instead of truncated" in tally.hold(
+        CHAIN, CorruptError("no"), TruncatedError("yes")
+    )
     assert tally.hold(CHAIN, CorruptError("this"), CorruptError("that")) is None
     assert tally.differing == 5
 
@@ -58,7 +60,10 @@ def test_findings_and_escapes_are_noted_and_kept(shard, tmp_path):
     shard.found(b"other", "wrong")
     shard.found(b"right", None)
     assert shard.tally.escapes == 1 and len(shard.tally.findings) == 2
-    assert sorted(path.read_bytes() for path in (tmp_path / "findings").iterdir()) == [b"other", b"stream"]
+    assert sorted(path.read_bytes() for path in (tmp_path / "findings").iterdir()) == [
+        b"other",
+        b"stream",
+    ]
 
 
 def test_a_wrong_decoder_is_found(shard, monkeypatch):

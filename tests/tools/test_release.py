@@ -64,10 +64,19 @@ def test_wheels_are_looked_into(names, message, tmp_path):
 
 
 def test_each_python_has_its_wheel():
-    old, new = (Path(f"bsm_codec-1-{tags}-manylinux_2_34_x86_64.whl") for tags in ("cp311-cp311", "cp312-abi3"))
-    assert fits(old, (3, 11)) and fits(new, (3, 13)) and not fits(new, (3, 11)) and not fits(old, (3, 12))
+    old, new = (
+        Path(f"bsm_codec-1-{tags}-manylinux_2_34_x86_64.whl")
+        for tags in ("cp311-cp311", "cp312-abi3")
+    )
+    assert (
+        fits(old, (3, 11))
+        and fits(new, (3, 13))
+        and not fits(new, (3, 11))
+        and not fits(old, (3, 12))
+    )
     assert not any(
-        fits(Path(f"a-cp312-abi3-{end}.whl"), (3, 13)) for end in ("manylinux_2_28_aarch64", "macosx_11_0_x86_64")
+        fits(Path(f"a-cp312-abi3-{end}.whl"), (3, 13))
+        for end in ("manylinux_2_28_aarch64", "macosx_11_0_x86_64")
     )
 
 
@@ -76,7 +85,9 @@ def test_an_extension_may_ask_for_the_stable_abi_only(tmp_path):
     for module in ("abi3info", "pefile", "ziglang"):
         pytest.importorskip(module, reason=f"no {module} here (extra release)")
     (tmp_path / "a.def").write_text("LIBRARY python3.dll\nEXPORTS\nPyLong_No\nPyLong_FromLong\n")
-    (tmp_path / "a.c").write_text("int DllMainCRTStartup(void) { return PyLong_FromLong(PyLong_No()); }\n")
+    (tmp_path / "a.c").write_text(
+        "int DllMainCRTStartup(void) { return PyLong_FromLong(PyLong_No()); }\n"
+    )
     zig(tmp_path, "dlltool", "-m", "i386:x86-64", "-d", "a.def", "-l", "a.lib")
     words = ("-target", FOREIGN[0].zig, "-shared", "-nostdlib", "-w", "-std=gnu89")
     zig(tmp_path, "cc", *words, "a.c", "a.lib", "-o", "_core.pyd")

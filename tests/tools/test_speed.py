@@ -21,7 +21,8 @@ def test_what_needs_no_fetching_is_in_the_file() -> None:
 
 
 @pytest.mark.parametrize(
-    ("known", "most", "code"), [([1e6, 1e6], 1.3, None), ([1e-6, 1e6], 1.3, 1), ([1e-6, 1e6], 1e12, None)]
+    ("known", "most", "code"),
+    [([1e6, 1e6], 1.3, None), ([1e-6, 1e6], 1.3, 1), ([1e-6, 1e6], 1e12, None)],
 )
 @pytest.mark.parametrize("made", [False, True])
 def test_a_ratio_above_the_file_fails(

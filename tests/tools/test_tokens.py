@@ -46,7 +46,9 @@ def test_tables_count_their_data(tmp_path: Path) -> None:
 
 
 def test_lengths_of_functions_leave_docstrings_and_comments_out() -> None:
-    assert function_lengths('def f():\n    """Say\n    it."""\n    x = 1\n    # why\n    return x\n') == [3]
+    assert function_lengths(
+        'def f():\n    """Say\n    it."""\n    x = 1\n    # why\n    return x\n'
+    ) == [3]
 
 
 def test_density_counts_what_stands_in_lines_of_code() -> None:

@@ -37,5 +37,7 @@ def test_training_learns_and_is_repeated() -> None:
 def test_a_stage_brings_an_example_nearer_to_the_truth() -> None:
     case = example(Path(), 10**6)
     seen = map(described, (case, improved(read_networks()[0], case)))
-    before, after = (np.linalg.norm(numbers[:, BASE] - wanted, axis=1).mean() for numbers, wanted in seen)
+    before, after = (
+        np.linalg.norm(numbers[:, BASE] - wanted, axis=1).mean() for numbers, wanted in seen
+    )
     assert after < 0.9 * before

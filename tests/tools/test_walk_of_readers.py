@@ -17,7 +17,16 @@ from tests.gltf import unpack
 from tools.attack.calls import recorded
 from tools.attack.doors import EVEN, OTHERS, Apart, attempt, compared, of_polygons
 from tools.attack.growth import growth
-from tools.attack.readers import Sample, grown, numbers, problems, read_all, samples, warm_up, written
+from tools.attack.readers import (
+    Sample,
+    grown,
+    numbers,
+    problems,
+    read_all,
+    samples,
+    warm_up,
+    written,
+)
 from tools.attack.taken import Case, Taken
 from tools.attack.uses import cases, of_size, uses
 
@@ -62,7 +71,8 @@ def test_the_walk_finds_what_is_beyond_the_bounds(monkeypatch):
     ):
         with monkeypatch.context() as patch:
             patch.setattr(
-                "tools.attack.readers.read_all", lambda path, limits, fault=fault: (fault(), Taken("read"))[1]
+                "tools.attack.readers.read_all",
+                lambda path, limits, fault=fault: (fault(), Taken("read"))[1],
             )
             found = list(problems(cases, "default"))
         assert len(found) == 2 and all(message in problem for problem in found)
@@ -95,7 +105,10 @@ def test_what_takes_longer_than_its_size_grows_is_found(monkeypatch):
 
 @linux
 def test_nodes_of_a_gltf_that_are_nested_deep_are_read(tmp_path):
-    for sample in (grown(1 << 17)["glb, a chain of nodes"](), of_size(USES["glb, materials"], 1 << 17)):
+    for sample in (
+        grown(1 << 17)["glb, a chain of nodes"](),
+        of_size(USES["glb, materials"], 1 << 17),
+    ):
         (tmp_path / "a.glb").write_bytes(sample.data)
         assert "read" in read_all(tmp_path / "a.glb", Limits()).outcome
     tree = unpack(samples()["glb"].data)[0]
@@ -107,7 +120,11 @@ def test_nodes_of_a_gltf_that_are_nested_deep_are_read(tmp_path):
 @pytest.mark.parametrize("name", USES)
 def test_a_few_uses_are_read(name, tmp_path):
     taken = read_all(written(USES[name](2000, 3), Path(tmp_path))[0], Limits())
-    refused = ("instancing" in name, "PointInstancer" in taken.outcome, "name in directory" in taken.outcome)
+    refused = (
+        "instancing" in name,
+        "PointInstancer" in taken.outcome,
+        "name in directory" in taken.outcome,
+    )
     assert taken.outcome == "read" or any(refused), taken.outcome
 
 
@@ -115,7 +132,9 @@ def test_a_few_uses_are_read(name, tmp_path):
 @pytest.mark.parametrize("name", ["glb, skins", "glb, nodes_of_primitives"])
 def test_uses_are_counted_once_and_before_they_are_made(name):
     warm_up()
-    assert not list(problems([Case(name, partial(of_size, USES[name], 400_000, 0.1))], "default", 1.25))
+    assert not list(
+        problems([Case(name, partial(of_size, USES[name], 400_000, 0.1))], "default", 1.25)
+    )
 
 
 def test_files_have_the_size_that_is_asked_for():
@@ -185,7 +204,10 @@ def test_a_quad_that_is_not_flat_may_differ_by_what_its_height_adds():
     assert of_polygons(square, [4], corners).uneven == 0
     bent = square + np.array([[0, 0, 0], [0, 0, 0.01], [0, 0, 0], [0, 0, 0]])
     both = [of_polygons(bent, [4], np.roll(corners, by)) for by in (0, 1)]
-    away = max(np.abs(a - b).max() for a, b in zip(*(read.moments().values() for read in both), strict=True))
+    away = max(
+        np.abs(a - b).max()
+        for a, b in zip(*(read.moments().values() for read in both), strict=True)
+    )
     assert 1e-5 < away < both[0].uneven < 0.05
     tie = of_polygons(square, [4], np.array([0, 2, 1, 3]))
     assert tie.uneven > 0.05, "edges that cross"

@@ -11,7 +11,9 @@ SCRIPTS = sorted((TARGET.parents[1] / "scripts").glob("*.mjs"))
 IMPORTED = [
     (path.name, module, name)
     for path in SCRIPTS
-    for module, names in re.findall(r"^from (bsm[.\w]*) import (.+)$", path.read_text(), re.MULTILINE)
+    for module, names in re.findall(
+        r"^from (bsm[.\w]*) import (.+)$", path.read_text(), re.MULTILINE
+    )
     for name in names.split(", ")
 ]
 

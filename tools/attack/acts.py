@@ -87,14 +87,21 @@ class Seen:
             return
         compared: tuple[tuple[str, Array, Array], ...] = (
             ("height in meters", self.extents[self.up], expected.extents[expected.up]),
-            ("width", np.sort(np.delete(self.extents, self.up)), np.sort(np.delete(expected.extents, expected.up))),
+            (
+                "width",
+                np.sort(np.delete(self.extents, self.up)),
+                np.sort(np.delete(expected.extents, expected.up)),
+            ),
             ("colors of vertices", self.shades, expected.shades),
             ("looks of materials", _rows(self.surfaces), _rows(expected.surfaces)),
         )
         size = float(expected.extents.max(initial=0.0))
         for what, value, expected_value in compared:
             if np.shape(value) != np.shape(expected_value) or not np.allclose(
-                value, expected_value, NEAR, NEAR * (size if what in ("height in meters", "width") else 1.0)
+                value,
+                expected_value,
+                NEAR,
+                NEAR * (size if what in ("height in meters", "width") else 1.0),
             ):
                 yield f"{what}: {np.round(value, 5).tolist()}, not {np.round(expected_value, 5).tolist()}"
         if moving and (self.start is None or abs(self.start - START / RATE) > 1e-3):
@@ -117,14 +124,22 @@ def wanted_of(mesh: bsm.TriangleMesh, *, faces: bool = False) -> Seen:
     size = metres(str(mesh.metadata.get("unit", ""))) or 1.0
     numbers = face_numbers(mesh, "material")
     used = [0] if numbers is None else np.unique(numbers.values).tolist()
-    attributes = [a for a in mesh.attributes if a.components in (3, 4) and (faces or a.domain != "face")]
+    attributes = [
+        a for a in mesh.attributes if a.components in (3, 4) and (faces or a.domain != "face")
+    ]
     color = next((a for a in attributes if a.semantic == "color"), None)
     bright = next(
         (a for a in attributes if a.name == "color" and a.values.dtype == np.float32), None
     )  # above 1, and linear
     kinds = materials_in(mesh.metadata)
-    images = {number for number, (_, data) in images_in(mesh.metadata).items() if re.match(SHOWN, data, re.DOTALL)}
-    surfaces = np.array([_surface(kinds.get(number, {}), images)[: OF_USD if faces else None] for number in used])
+    images = {
+        number
+        for number, (_, data) in images_in(mesh.metadata).items()
+        if re.match(SHOWN, data, re.DOTALL)
+    }
+    surfaces = np.array(
+        [_surface(kinds.get(number, {}), images)[: OF_USD if faces else None] for number in used]
+    )
     shades = np.zeros(0)
     if color is None and bright is not None and bright.domain == "vertex":
         values = bright.values[np.unique(mesh.faces), :3]
@@ -138,36 +153,63 @@ def wanted_of(mesh: bsm.TriangleMesh, *, faces: bool = False) -> Seen:
         shades = np.array([_linear(values.min(axis=0)), _linear(values.max(axis=0))])
     used_points = mesh.positions if faces else mesh.positions[np.unique(mesh.faces)]
     return Seen(
-        np.ptp(used_points, axis=0) * size, UP.get(str(mesh.metadata.get("up", "y")).lower(), 1), surfaces, shades
+        np.ptp(used_points, axis=0) * size,
+        UP.get(str(mesh.metadata.get("up", "y")).lower(), 1),
+        surfaces,
+        shades,
     )
 
 
 def _surface(words: dict[str, Any], images: set[int]) -> list[float]:
     """Color, opacity, metal, roughness, double sides, and one more than the set of the images of color and normals."""
-    number_words = ["Kd", "d", "Tr", "Pm", "Pr", "baseColorFactor", "metallicFactor", "roughnessFactor"]
+    number_words = [
+        "Kd",
+        "d",
+        "Tr",
+        "Pm",
+        "Pr",
+        "baseColorFactor",
+        "metallicFactor",
+        "roughnessFactor",
+    ]
     numbers = {
-        n: [float(word) for word in str(words[n]).removeprefix("-halo").split()] for n in number_words if n in words
+        n: [float(word) for word in str(words[n]).removeprefix("-halo").split()]
+        for n in number_words
+        if n in words
     }
-    of_gltf = any(re.match("name|base|metal|rough|emissive|normalT|occl|alpha|double", name) for name in words)
+    of_gltf = any(
+        re.match("name|base|metal|rough|emissive|normalT|occl|alpha|double", name) for name in words
+    )
     of_mtl = any(re.match("[A-Z][a-z]|d$|illum|map_|norm$|bump", name) for name in words)
     both = "map_Pr" in words and words.get("map_Pm") == words["map_Pr"]
-    metal = numbers.get("metallicFactor", numbers.get("Pm", [float(both or (of_gltf and not of_mtl))]))
+    metal = numbers.get(
+        "metallicFactor", numbers.get("Pm", [float(both or (of_gltf and not of_mtl))])
+    )
     rough = numbers.get("roughnessFactor", numbers.get("Pr", [1.0 if of_gltf or of_mtl else 0.9]))
     maps = (("baseColorTexture", "map_Kd"), ("normalTexture", "norm", "map_Bump"))
     sets = [float(any(words.get(name, -1) in images for name in names)) for names in maps]
-    rest = [*np.clip([*metal, *rough], 0.0, 1.0).tolist(), float(bool(words.get("doubleSided"))), *sets]
+    rest = [
+        *np.clip([*metal, *rough], 0.0, 1.0).tolist(),
+        float(bool(words.get("doubleSided"))),
+        *sets,
+    ]
     if "baseColorFactor" in numbers:
         *color, opacity = numbers["baseColorFactor"]
         return [*color, opacity if words.get("alphaMode", "BLEND") == "BLEND" else 1.0, *rest]
-    opacity = numbers["d"][0] if "d" in numbers else 1 - numbers["Tr"][0] if "Tr" in numbers else 1.0
-    black = "map_Kd" in words and not any(numbers.get("Kd", [1.0]))  # as some write where an image has the colors
+    opacity = (
+        numbers["d"][0] if "d" in numbers else 1 - numbers["Tr"][0] if "Tr" in numbers else 1.0
+    )
+    # As some write where an image has the colors.
+    black = "map_Kd" in words and not any(numbers.get("Kd", [1.0]))
     color = [1.0] * 3 if black else numbers.get("Kd", [1.0] * 3)
     return [*np.clip(_linear(color), 0.0, 1.0).tolist(), min(max(opacity, 0.0), 1.0), *rest]
 
 
 def by_three(paths: Sequence[Path]) -> list[Seen]:
     command = ["node", "--input-type=module", "-e", THREE, *map(str, paths)]
-    output = subprocess.run(command, cwd=WEB, capture_output=True, text=True, check=True, timeout=600).stdout
+    output = subprocess.run(
+        command, cwd=WEB, capture_output=True, text=True, check=True, timeout=600
+    ).stdout
     return [
         Seen(np.zeros(3), 1, np.zeros(0), np.zeros(0), None, line["error"]) if "error" in line
         else Seen(np.array(line["extents"]), 1, np.array(line["surfaces"]), np.array(line["shades"]), line["start"])
@@ -176,24 +218,43 @@ def by_three(paths: Sequence[Path]) -> list[Seen]:
 
 
 def by_usd(path: Path) -> Seen:
-    usd, geom, shade = (importlib.import_module(f"pxr.{name}") for name in ("Usd", "UsdGeom", "UsdShade"))
+    usd, geom, shade = (
+        importlib.import_module(f"pxr.{name}") for name in ("Usd", "UsdGeom", "UsdShade")
+    )
     stage = usd.Stage.Open(str(path))
     code = usd.TimeCode(stage.GetStartTimeCode())
-    box = geom.BBoxCache(code, [geom.Tokens.default_]).ComputeWorldBound(stage.GetPseudoRoot()).ComputeAlignedRange()
+    box = (
+        geom.BBoxCache(code, [geom.Tokens.default_])
+        .ComputeWorldBound(stage.GetPseudoRoot())
+        .ComputeAlignedRange()
+    )
     surfaces, shades = [], np.zeros(0)
     for prim in stage.Traverse():
         if prim.IsA(shade.Material):
             surface = shade.Material(prim).ComputeSurfaceSource()[0]
             inputs = map(surface.GetInput, ("diffuseColor", "opacity", "metallic", "roughness"))
-            input_values = (value.Get() if value and not value.HasConnectedSource() else None for value in inputs)
+            input_values = (
+                value.Get() if value and not value.HasConnectedSource() else None
+                for value in inputs
+            )
             color, opacity, *rough = input_values
             surfaces.append([*(color or [1.0] * 3), 1.0 if opacity is None else opacity, *rough])
-        elif prim.IsA(geom.Mesh) and (var := geom.Mesh(prim).GetDisplayColorPrimvar()) and var.HasValue():
+        elif (
+            prim.IsA(geom.Mesh)
+            and (var := geom.Mesh(prim).GetDisplayColorPrimvar())
+            and var.HasValue()
+        ):
             values = np.array(var.ComputeFlattened(code))
             shades = np.array([values.min(axis=0), values.max(axis=0)])
     extents = np.array(box.GetSize()) * geom.GetStageMetersPerUnit(stage)
     up = UP[str(geom.GetStageUpAxis(stage)).lower()]
-    return Seen(extents, up, np.array(surfaces), shades, stage.GetStartTimeCode() / stage.GetTimeCodesPerSecond())
+    return Seen(
+        extents,
+        up,
+        np.array(surfaces),
+        shades,
+        stage.GetStartTimeCode() / stage.GetTimeCodesPerSecond(),
+    )
 
 
 @dataclass
@@ -234,10 +295,14 @@ class Acts:
                 result.surfaces[is_expected] if any(is_expected) else result.surfaces
             )  # it also has those that no face has
             numbers, kinds = face_numbers(mesh, "material"), materials_in(mesh.metadata)
-            if not all(map(kinds.get, [0] if numbers is None else np.unique(numbers.values).tolist())):
+            if not all(
+                map(kinds.get, [0] if numbers is None else np.unique(numbers.values).tolist())
+            ):
                 bare = np.array([_surface({}, set())[:OF_USD]])  # faces without a material
                 result.surfaces = np.concatenate([np.reshape(result.surfaces, (-1, OF_USD)), bare])
-            yield from ((f"{name}, usdc", what) for what in result.differences(expected, moving=True))
+            yield from (
+                (f"{name}, usdc", what) for what in result.differences(expected, moving=True)
+            )
             path.unlink()
 
     def finish(self) -> Iterator[tuple[str, str]]:

@@ -41,7 +41,16 @@ RATIO = 1.25
 """Seconds that a second charged may take."""
 YARDSTICK = "mesh-blocks"
 """Nearly all dictionaries."""
-LIMITED = {"vertices", "faces", "blocks", "block_size", "coefficients", "frames", "gop_frames", "attributes"}
+LIMITED = {
+    "vertices",
+    "faces",
+    "blocks",
+    "block_size",
+    "coefficients",
+    "frames",
+    "gop_frames",
+    "attributes",
+}
 """Fields of the header that limits bound."""
 LEAST_SECONDS = 0.05
 """Shorter CPU times are too noisy to judge."""
@@ -94,8 +103,15 @@ THINGS = {
 def things() -> set[str]:
     """Return what there can be many of: frames of each type but END, methods of GOPs, counts, and lists in GOPs."""
     names = {kind.name for kind in FrameType if kind is not FrameType.END}
-    lists = {name for r in (GopBody, GopField) for name, kind in get_type_hints(r).items() if kind not in _SINGLE}
-    return names | {"METADATA", "SKIPPABLE"} | {method.name for method in GopMethod} | LIMITED | lists
+    lists = {
+        name
+        for r in (GopBody, GopField)
+        for name, kind in get_type_hints(r).items()
+        if kind not in _SINGLE
+    }
+    return (
+        names | {"METADATA", "SKIPPABLE"} | {method.name for method in GopMethod} | LIMITED | lists
+    )
 
 
 _SINGLE = (int, float, bool, GopMethod)
@@ -107,8 +123,12 @@ def bombs() -> int:
     parser.add_argument("--limits", choices=("default", "service"), default="default")
     args = parser.parse_args()
     names = args.names or list(BOMBS)
-    failed = [name for name in names if not min([_holds(name, how, args.limits) for how in args.how])]
-    print(f"{len(names)} bombs, {len(failed)} take more than they may: {' '.join(failed) or 'none'}")
+    failed = [
+        name for name in names if not min([_holds(name, how, args.limits) for how in args.how])
+    ]
+    print(
+        f"{len(names)} bombs, {len(failed)} take more than they may: {' '.join(failed) or 'none'}"
+    )
     return 1 if failed else 0
 
 
@@ -136,11 +156,17 @@ def _stream(name: str) -> bytes:
 def walk() -> int:
     """`python -m tools.attack walk`."""
     parser = _parser("cases whose name begins so", "whole", "tolerant")
-    parser.add_argument("--bytes", type=int, default=1 << 20, help="of a case (default: %(default)s)")
+    parser.add_argument(
+        "--bytes", type=int, default=1 << 20, help="of a case (default: %(default)s)"
+    )
     parser.add_argument("--every", type=int, default=1, metavar="N", help="take one case in N")
     args = parser.parse_args()
-    every = [case for case in cases(args.bytes) if case.name.startswith(tuple(args.names or [""]))][:: args.every]
-    return report(walk_problems({case.name: case.make() for case in every}, args.how), f"{len(every)} streams")
+    every = [case for case in cases(args.bytes) if case.name.startswith(tuple(args.names or [""]))][
+        :: args.every
+    ]
+    return report(
+        walk_problems({case.name: case.make() for case in every}, args.how), f"{len(every)} streams"
+    )
 
 
 def walk_problems(streams: Mapping[str, bytes], hows: Sequence[str]) -> Iterator[str]:
@@ -148,32 +174,50 @@ def walk_problems(streams: Mapping[str, bytes], hows: Sequence[str]) -> Iterator
     warm_up()
     for how in hows:
         if how == "browser":
-            for (name, stream), cost in zip(streams.items(), taken_by_browser(list(streams.values())), strict=True):
+            for (name, stream), cost in zip(
+                streams.items(), taken_by_browser(list(streams.values())), strict=True
+            ):
                 if problem := cost.problem(*browser_bounds(cost, stream)):
                     yield f"{name} ({how}): {problem}"
             continue
         for limits in ("default", "service"):
-            decodes = [partial(partial, decode_all, stream, how, NAMED_LIMITS[limits]()) for stream in streams.values()]
+            decodes = [
+                partial(partial, decode_all, stream, how, NAMED_LIMITS[limits]())
+                for stream in streams.values()
+            ]
             yield from problems_of([f"{name} ({how})" for name in streams], decodes, limits)
 
 
 def charges() -> int:
     """`python -m tools.attack charges`."""
-    parser = _parser(f"of {', '.join(THINGS)}; all, if none is named", "events", "threads", "browser")
-    parser.add_argument("--times", type=int, default=3, help="the least counts (default: %(default)s)")
+    parser = _parser(
+        f"of {', '.join(THINGS)}; all, if none is named", "events", "threads", "browser"
+    )
+    parser.add_argument(
+        "--times", type=int, default=3, help="the least counts (default: %(default)s)"
+    )
     parser.add_argument("--small", action="store_true", help="streams of many small ones alone")
-    parser.add_argument("--most", type=float, default=RATIO, help="seconds for one charged (default: %(default)s)")
+    parser.add_argument(
+        "--most", type=float, default=RATIO, help="seconds for one charged (default: %(default)s)"
+    )
     args = parser.parse_args()
     pairs = [THINGS[name] for name in args.names or THINGS]
-    names = list(dict.fromkeys(name for pair in pairs for name in (pair[:1] if args.small else pair)))
+    names = list(
+        dict.fromkeys(name for pair in pairs for name in (pair[:1] if args.small else pair))
+    )
     streams = {name: BOMBS[name]() for name in [YARDSTICK, *names]}
     warm_up()
     failed = []
     for how in args.how:
         slowness = 1.0
         for name, stream in streams.items():
-            cost = min((taken_by(stream, how, "wide") for _ in range(args.times)), key=lambda cost: cost.seconds)
-            ratio = cost.seconds / max(cost.work / 1e9, 1e-9) / (BROWSER if how == "browser" else 1.0)
+            cost = min(
+                (taken_by(stream, how, "wide") for _ in range(args.times)),
+                key=lambda cost: cost.seconds,
+            )
+            ratio = (
+                cost.seconds / max(cost.work / 1e9, 1e-9) / (BROWSER if how == "browser" else 1.0)
+            )
             slowness = max(slowness, ratio) if name == YARDSTICK else slowness
             unsound = cost.escaped or (args.small and cost.outcome != "decoded")
             wrong = unsound or (ratio > args.most * slowness and cost.seconds > LEAST_SECONDS)
@@ -183,7 +227,9 @@ def charges() -> int:
                 f"{ratio:5.2f} of {args.most * slowness:.2f}{' FAILED' * wrong} {cost.outcome[:60]}",
                 flush=True,
             )
-    print(f"{len(streams)} streams, {len(failed)} take more than is charged: {', '.join(failed) or 'none'}")
+    print(
+        f"{len(streams)} streams, {len(failed)} take more than is charged: {', '.join(failed) or 'none'}"
+    )
     return 1 if failed else 0
 
 

@@ -42,14 +42,20 @@ def recorded(lines: Iterable[str]) -> tuple[Counter[str], Counter[str]]:
 def main() -> int:
     """Run the command."""
     parser = parser_of(__doc__)
-    parser.add_argument("--every", type=int, default=200, metavar="N", help="of the numbers take one in N")
-    parser.add_argument("--bytes", type=int, default=1 << 16, help="of a file that is grown (default: %(default)s)")
+    parser.add_argument(
+        "--every", type=int, default=200, metavar="N", help="of the numbers take one in N"
+    )
+    parser.add_argument(
+        "--bytes", type=int, default=1 << 16, help="of a file that is grown (default: %(default)s)"
+    )
     args = parser.parse_args()
     attack = [sys.executable, "-m", "tools.attack", "readers", "--limits", "service"]
     with tempfile.NamedTemporaryFile("r", errors="replace") as log:
         record = ["strace", "-f", "-q", "-e", "signal=none", "-o", log.name]
         # Exit code 1: under the recorder, some files take longer than they may.
-        subprocess.run([*record, *attack, "--every", str(args.every), "--bytes", str(args.bytes)], check=False)
+        subprocess.run(
+            [*record, *attack, "--every", str(args.every), "--bytes", str(args.bytes)], check=False
+        )
         calls, refused = recorded(log)
     rows = csv.DictReader(_TABLE.read_text().splitlines())
     allowed = {row["call"] for row in rows if row["allowed"] == "yes" and row[platform.machine()]}

@@ -72,12 +72,23 @@ class Recipe:
         positions[:tiny] = positions[0] + 1e-3 * random.normal(size=(tiny, 3))
         many, wide = len(positions), len(positions) > 256
         values, lines = _attribute(self.attribute, random, many)
-        columns = np.column_stack([positions, values]).astype("<f4") if values.shape[1] else positions.astype("<f4")
+        columns = (
+            np.column_stack([positions, values]).astype("<f4")
+            if values.shape[1]
+            else positions.astype("<f4")
+        )
         head = ["ply", "format binary_little_endian 1.0", f"element vertex {many}"]
         head += [f"property float {name}" for name in ("x", "y", "z", *lines)]
         head += [f"element face {len(polygons)}"]
-        head += [f"property list uchar {'ushort' if wide else 'uchar'} vertex_indices", "end_header", ""]
-        corners = (bytes([len(polygon)]) + polygon.astype("<u2" if wide else "u1").tobytes() for polygon in polygons)
+        head += [
+            f"property list uchar {'ushort' if wide else 'uchar'} vertex_indices",
+            "end_header",
+            "",
+        ]
+        corners = (
+            bytes([len(polygon)]) + polygon.astype("<u2" if wide else "u1").tobytes()
+            for polygon in polygons
+        )
         return "\n".join(head).encode() + columns.tobytes() + b"".join(corners)
 
 
@@ -90,14 +101,20 @@ def _polygons(recipe: Recipe, random: np.random.Generator) -> tuple[np.ndarray, 
             rows = -(-many // 3)
             corners = np.array([[-1.0, -1.0], [1.0, -1.0], [0.0, 1.0]])
             step = 0.0 if recipe.shape == "copies" else 1.0 / rows
-            at = np.column_stack([np.tile(corners, (rows, 1)), np.repeat(step * np.arange(rows), 3)])
+            at = np.column_stack(
+                [np.tile(corners, (rows, 1)), np.repeat(step * np.arange(rows), 3)]
+            )
             faces = np.arange(3 * rows).reshape(-1, 3)
             if recipe.shape == "grid":
                 side = max(2, int(many**0.5))
-                at = np.stack(np.meshgrid(*(np.arange(side, dtype=float),) * 2, [0.0]), -1).reshape(-1, 3)
+                at = np.stack(np.meshgrid(*(np.arange(side, dtype=float),) * 2, [0.0]), -1).reshape(
+                    -1, 3
+                )
                 at[:, 2] = random.normal(size=len(at))
                 first = np.arange(side * side).reshape(side, side)[:-1, :-1].ravel()
-                faces = np.concatenate([first[:, None] + [0, 1, side], first[:, None] + [1, side + 1, side]])
+                faces = np.concatenate(
+                    [first[:, None] + [0, 1, side], first[:, None] + [1, side + 1, side]]
+                )
             return at, list(np.resize(faces, (count, 3)))
         case "parts":  # one part, moved and turned
             part, size = random.normal(size=(5, 3)), -(-many // 5)
@@ -108,16 +125,24 @@ def _polygons(recipe: Recipe, random: np.random.Generator) -> tuple[np.ndarray, 
         case "fan":  # planes through one line
             at = np.column_stack([np.cos(turns), np.sin(turns), np.resize([-1.0, 1.0], many)])
         case "slivers":
-            at = np.column_stack([np.cos(turns), 1e-3 * np.sin(turns), np.resize([-1.0, 1.0], many)])
+            at = np.column_stack(
+                [np.cos(turns), 1e-3 * np.sin(turns), np.resize([-1.0, 1.0], many)]
+            )
         case "shells":
-            at = at / np.linalg.norm(at, axis=1, keepdims=True) * np.linspace(1.0, 2.0, many)[:, None]
+            at = (
+                at
+                / np.linalg.norm(at, axis=1, keepdims=True)
+                * np.linspace(1.0, 2.0, many)[:, None]
+            )
         case "tiny":
             at[1:-2] = at[0] + 1e-4 * at[1:-2]
     long = [FAN] * (count // (FAN - 2)) + [count % (FAN - 2) + 2]
     return at, [random.integers(0, many, size) for size in long]
 
 
-def _attribute(kind: str, random: np.random.Generator, many: int) -> tuple[np.ndarray, tuple[str, ...]]:
+def _attribute(
+    kind: str, random: np.random.Generator, many: int
+) -> tuple[np.ndarray, tuple[str, ...]]:
     columns = {"none": "", "color": "red green blue", "normal": "nx ny nz", "texcoord": "s t"}
     names = columns.get(kind, " ".join(columns.values())).split()
     values = random.uniform(0.0, 1.0, (many, len(names)))
@@ -147,7 +172,9 @@ def encoded(data: bytes, preset: str, kind: str = "meshes") -> Taken:
     try:
         mesh = bsm.load(data, limits=bsm.Limits.service())
         if kind == "sequences":
-            frames = [mesh.positions * np.cos(t * mesh.positions[:, [1, 2, 0]]) for t in range(FRAMES)]
+            frames = [
+                mesh.positions * np.cos(t * mesh.positions[:, [1, 2, 0]]) for t in range(FRAMES)
+            ]
             stream = bsm.encode_sequence(frames, mesh.faces, preset=preset, threads=1)
             return Taken(f"{len(stream)} bytes", FRAMES * len(data), len(mesh.faces))
         stream = bsm.encode(mesh, preset=preset, threads=1, **KINDS[kind].options)
@@ -161,15 +188,27 @@ def share(cost: Taken) -> float:
     return float("inf") if cost.escaped else cost.seconds / (SECONDS + SECONDS_PER_BYTE * cost.size)
 
 
-def search(seconds: float, seed: str, most: int = 12, kind: str = "meshes") -> list[tuple[float, Recipe | File, Taken]]:
+def search(
+    seconds: float, seed: str, most: int = 12, kind: str = "meshes"
+) -> list[tuple[float, Recipe | File, Taken]]:
     """Return the worst files found within a time, the worst first."""
-    random, worst, end = Random(seed), list[tuple[float, Recipe | File, Taken]](), time.monotonic() + seconds
+    random, worst, end = (
+        Random(seed),
+        list[tuple[float, Recipe | File, Taken]](),
+        time.monotonic() + seconds,
+    )
     while time.monotonic() < end:
         new = not worst or random.random() < 0.3
-        recipes = [_drawn(kind, random) if new else _changed(random.choice(worst)[1], kind, random) for _ in range(4)]
+        recipes = [
+            _drawn(kind, random) if new else _changed(random.choice(worst)[1], kind, random)
+            for _ in range(4)
+        ]
         works = [partial(_prepared, recipe, kind) for recipe in recipes]
         costs = zip(recipes, taken_by_each(works, seconds=120), strict=True)
-        worst = sorted([*worst, *((share(cost), recipe, cost) for recipe, cost in costs)], key=lambda row: -row[0])
+        worst = sorted(
+            [*worst, *((share(cost), recipe, cost) for recipe, cost in costs)],
+            key=lambda row: -row[0],
+        )
         worst = worst[:most]
     return worst
 
@@ -179,7 +218,11 @@ def _drawn(kind: str, random: Random) -> Recipe | File:
 
 
 def _changed(recipe: Recipe | File, kind: str, random: Random) -> Recipe | File:
-    return changed_file(recipe, random) if isinstance(recipe, File) else changed(recipe, random, KINDS[kind])
+    return (
+        changed_file(recipe, random)
+        if isinstance(recipe, File)
+        else changed(recipe, random, KINDS[kind])
+    )
 
 
 def _prepared(recipe: Recipe | File, kind: str) -> partial[Taken]:
@@ -191,15 +234,21 @@ def _prepared(recipe: Recipe | File, kind: str) -> partial[Taken]:
 def main() -> int:
     """Run the command."""
     parser = parser_of(__doc__)
-    parser.add_argument("--seconds", type=float, default=600, help="how long to search (default: %(default)s)")
+    parser.add_argument(
+        "--seconds", type=float, default=600, help="how long to search (default: %(default)s)"
+    )
     parser.add_argument("--seed", default="0")
-    parser.add_argument("--kind", choices=(*KINDS, *FILES), default="meshes", help="default: %(default)s")
+    parser.add_argument(
+        "--kind", choices=(*KINDS, *FILES), default="meshes", help="default: %(default)s"
+    )
     parser.add_argument("--save", type=Path, metavar="FILE", help="write the worst file here")
     args = parser.parse_args()
     warm_up()
     worst = search(args.seconds, args.seed, kind=args.kind)
     for part, recipe, cost in worst:
-        print(f"{part:.2f} of the bound: {cost.seconds:.2f} s, {cost.size} bytes, {cost.outcome[:60]}; {recipe}")
+        print(
+            f"{part:.2f} of the bound: {cost.seconds:.2f} s, {cost.size} bytes, {cost.outcome[:60]}; {recipe}"
+        )
     if args.save:
         recipe = worst[0][1]
         args.save.write_bytes(recipe.data if isinstance(recipe, File) else recipe.ply)

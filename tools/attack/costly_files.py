@@ -24,12 +24,16 @@ Way = Callable[[int], str]
 
 def _each(text: str) -> Way:
     """Repeat a text, in which # is a number that grows, and ## the next one."""
-    return lambda count: "".join(text.replace("##", str(n + 1)).replace("#", str(n)) for n in range(10, 10 + count))
+    return lambda count: "".join(
+        text.replace("##", str(n + 1)).replace("#", str(n)) for n in range(10, 10 + count)
+    )
 
 
 def _nodes_of(text: str) -> Way:
     """Repeat a text with three numbers of nodes."""
-    return lambda count: "".join(text.format(n, 3 * n, 3 * n + 1, 3 * n + 2, n + 1) for n in range(10, 10 + count))
+    return lambda count: "".join(
+        text.format(n, 3 * n, 3 * n + 1, 3 * n + 2, n + 1) for n in range(10, 10 + count)
+    )
 
 
 def _in_names(way: Way) -> Way:
@@ -37,7 +41,9 @@ def _in_names(way: Way) -> Way:
     return lambda count: f"$PhysicalNames\n{way(count)}x\n$EndPhysicalNames\n"
 
 
-_SYSTEM = "GRID,{1},{4},0.,0.,0.\nGRID,{2},{4},0.,0.,1.\nGRID,{3},{4},1.,0.,0.\nCORD1R,{0},{1},{2},{3}\n"
+_SYSTEM = (
+    "GRID,{1},{4},0.,0.,0.\nGRID,{2},{4},0.,0.,1.\nGRID,{3},{4},1.,0.,0.\nCORD1R,{0},{1},{2},{3}\n"
+)
 _COMMON: Mapping[str, Way] = {
     "blank lines": lambda count: "\n" * count,
     "blanks": lambda count: " " * count + "\n",
@@ -69,7 +75,9 @@ FILES: Mapping[str, tuple[str, str, Mapping[str, Way]]] = {
         {
             **_COMMON,
             "nodes": _each("GRID,#,,#.,0.,1.\n"),
-            "nodes in systems": _each("CORD2R,#,,0.,0.,0.,0.,0.,1.,\n,1.,0.,0.\nGRID,#,#,1.,2.,3.\n"),
+            "nodes in systems": _each(
+                "CORD2R,#,,0.,0.,0.,0.,0.,1.,\n,1.,0.,0.\nGRID,#,#,1.,2.,3.\n"
+            ),
             "systems in systems": _each("CORD2R,#,##,0.,0.,0.,0.,0.,1.,\n,1.,0.,0.\n"),
             "systems of nodes": _nodes_of(_SYSTEM),
             "faces": _each("CTRIA3,#,1,1,2,3\n"),
@@ -122,7 +130,11 @@ FILES: Mapping[str, tuple[str, str, Mapping[str, Way]]] = {
             "blank lines": lambda count: "\n" * count,
         },
     ),
-    "vtp": ("vtp", _VTP, {"arrays": _each(_ARRAY), "one array": lambda count: _ARRAY + "\n" * count}),
+    "vtp": (
+        "vtp",
+        _VTP,
+        {"arrays": _each(_ARRAY), "one array": lambda count: _ARRAY + "\n" * count},
+    ),
     "obj": (
         "obj",
         "v 0 0 0\nv 1 0 0\nv 0 1 0\n{}\nf 1 2 3\n",
@@ -149,7 +161,11 @@ FILES: Mapping[str, tuple[str, str, Mapping[str, Way]]] = {
             "images": _each("comment TextureFile t#.png\n"),
         },
     ),
-    "npz": ("npz", "", {"metadata": lambda count: "m" * count, "arrays": lambda count: "a" * count}),
+    "npz": (
+        "npz",
+        "",
+        {"metadata": lambda count: "m" * count, "arrays": lambda count: "a" * count},
+    ),
 }
 """Formats: their suffix, a sound file with a place for the ways, and these."""
 
@@ -171,7 +187,8 @@ class File:
         buffer = io.BytesIO()
         arrays: dict[str, Any] = {"positions": np.eye(3), "faces": np.array([[0, 1, 2]])}
         arrays |= {
-            f"{'meta.x' if letter == 'm' else 'vertex.x'}{n}": np.zeros(3) for n, letter in enumerate(inside[:4096])
+            f"{'meta.x' if letter == 'm' else 'vertex.x'}{n}": np.zeros(3)
+            for n, letter in enumerate(inside[:4096])
         }
         np.savez(buffer, **arrays)
         return buffer.getvalue()
@@ -179,7 +196,9 @@ class File:
 
 def drawn_file(kind: str, random: Random) -> File:
     """Any file of a format."""
-    ways = random.sample(list(FILES[kind][2]), random.choice((1, 1, 1, 2)) if len(FILES[kind][2]) > 1 else 1)
+    ways = random.sample(
+        list(FILES[kind][2]), random.choice((1, 1, 1, 2)) if len(FILES[kind][2]) > 1 else 1
+    )
     return File(kind, tuple((way, int(2 ** random.uniform(4, 16))) for way in ways))
 
 

@@ -42,7 +42,11 @@ def whole(stream: bytes, limits: Limits = DEFAULT_LIMITS, threads: int = 1) -> O
 
 
 def piecewise(
-    stream: bytes, random: Random, limits: Limits = DEFAULT_LIMITS, threads: int = 1, tolerant: bool = False
+    stream: bytes,
+    random: Random,
+    limits: Limits = DEFAULT_LIMITS,
+    threads: int = 1,
+    tolerant: bool = False,
 ) -> tuple[Outcome, int]:
     """Decode by events, from pieces of random lengths; also return the number of losses."""
     try:
@@ -92,7 +96,9 @@ def _by_events(
                         losses += 1
         if len(runs) > 1 and isinstance(decoder, SequenceDecoder):
             return _of_runs(
-                frames, runs, {} if losses else arrays_of_frames(decoder.attributes, shown_attributes)
+                frames,
+                runs,
+                {} if losses else arrays_of_frames(decoder.attributes, shown_attributes),
             ), losses
         arrays = {} if losses else arrays_of_frames(_completed(decoder, values), shown_attributes)
     if kind is SequenceDecoder:
@@ -100,17 +106,25 @@ def _by_events(
     return (positions[0] if positions else np.zeros((0, 3)), faces, arrays), losses
 
 
-def _of_runs(frames: list[np.ndarray], runs: list[tuple[int, int, np.ndarray]], arrays: Arrays) -> Decoded:
+def _of_runs(
+    frames: list[np.ndarray], runs: list[tuple[int, int, np.ndarray]], arrays: Arrays
+) -> Decoded:
     """Frames of several meshes, one after the other, as the vectors hold them."""
     table = np.array([(first, vertices, len(faces)) for first, vertices, faces in runs], np.int32)
     positions = np.concatenate([np.zeros((0, 3)), *frames])
     return positions, np.concatenate([faces for _, _, faces in runs]), arrays | {"runs": table}
 
 
-def _completed(decoder: Decoder | SequenceDecoder, attributes: dict[str, Attribute]) -> list[Attribute]:
+def _completed(
+    decoder: Decoder | SequenceDecoder, attributes: dict[str, Attribute]
+) -> list[Attribute]:
     """Return attributes from events, in the order of the mesh, and recomputed normals, which have no event."""
     mesh = decoder if isinstance(decoder, SequenceDecoder) else decoder.decode_rest()
-    return [attributes.get(a.name, a) for a in mesh.attributes if a.name in attributes or a.semantic == "normal"]
+    return [
+        attributes.get(a.name, a)
+        for a in mesh.attributes
+        if a.name in attributes or a.semantic == "normal"
+    ]
 
 
 def _with_values(attribute: Attribute | None, event: AttributeEvent, rows: int) -> Attribute:
@@ -122,5 +136,11 @@ def _with_values(attribute: Attribute | None, event: AttributeEvent, rows: int) 
 
 
 def _pieces(stream: bytes, random: Random) -> list[bytes]:
-    cuts = sorted({0, len(stream), *(random.randrange(len(stream) + 1) for _ in range(random.choice((0, 1, 4, 30))))})
+    cuts = sorted(
+        {
+            0,
+            len(stream),
+            *(random.randrange(len(stream) + 1) for _ in range(random.choice((0, 1, 4, 30)))),
+        }
+    )
     return [stream[first:last] for first, last in pairwise(cuts) if last > first]

@@ -86,10 +86,18 @@ class Read:
         low, high = corners.min(axis=(0, 1)), corners.max(axis=(0, 1))
         corners = (corners - (low + high) / 2) / (float(np.linalg.norm(high - low)) or 1.0)
         vectors = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-        areas = np.linalg.norm(vectors, axis=1) if self.normals is None else (vectors * self.normals).sum(axis=1)
+        areas = (
+            np.linalg.norm(vectors, axis=1)
+            if self.normals is None
+            else (vectors * self.normals).sum(axis=1)
+        )
         middles = corners.mean(axis=1)
         area = areas.sum() or 1.0
-        sums = {"area": np.array([area]), "place": areas @ middles / area, "turn": vectors.T @ middles / area}
+        sums = {
+            "area": np.array([area]),
+            "place": areas @ middles / area,
+            "turn": vectors.T @ middles / area,
+        }
         sums |= {"bounds": np.concatenate([low, high]) / (np.abs([low, high]).max() or 1.0)}
         for name, values in self.values.items():
             of_faces = values.astype(np.float64).mean(axis=1)
@@ -102,18 +110,37 @@ class Read:
 def of_ours(mesh: bsm.TriangleMesh) -> Read:
     values: dict[str, Array] = {}
     for attribute in mesh.attributes:
-        if attribute.semantic in ("color", "normal", "texcoord") and attribute.semantic not in values:
-            table = rgba(attribute)[:, :3] / 255 if attribute.semantic == "color" else attribute.values
+        if (
+            attribute.semantic in ("color", "normal", "texcoord")
+            and attribute.semantic not in values
+        ):
+            table = (
+                rgba(attribute)[:, :3] / 255 if attribute.semantic == "color" else attribute.values
+            )
             width = {"texcoord": 2}.get(attribute.semantic, 3)
             if table.shape[1] >= width:
-                plain = bsm.Attribute("x", table[:, :width], attribute.domain, indices=attribute.indices)
+                plain = bsm.Attribute(
+                    "x", table[:, :width], attribute.domain, indices=attribute.indices
+                )
                 values[attribute.semantic] = at_corners(plain, mesh.faces)
     names = {str(material.get("name", "")) for material in materials_in(mesh.metadata).values()}
-    groups = {name for what in ("part", "group", "object") for name in names_in(mesh.metadata, what).values()}
+    groups = {
+        name
+        for what in ("part", "group", "object")
+        for name in names_in(mesh.metadata, what).values()
+    }
     groups |= {str(mesh.metadata.get("name", ""))}
-    looks_of_materials = (within(appearance(words))[0] for words in (*materials_in(mesh.metadata).values(), {}))
+    looks_of_materials = (
+        within(appearance(words))[0] for words in (*materials_in(mesh.metadata).values(), {})
+    )
     looks = [
-        (*look.color, look.color_texture is not None, look.metallic, look.roughness, look.double_sided)
+        (
+            *look.color,
+            look.color_texture is not None,
+            look.metallic,
+            look.roughness,
+            look.double_sided,
+        )
         for look in looks_of_materials
     ]
     return Read(mesh.positions[mesh.faces], values, names - {""}, groups - {""}, looks=looks)
@@ -124,7 +151,10 @@ def of_trimesh(path: Path) -> Read:
     scene = library.load_scene(path, process=False)
     triangles, values, names = [np.zeros((0, 3, 3))], dict[str, list[Array]](), set[str]()
     looks = list[tuple[float, ...]]()
-    parts = [(scene.graph[node][0], scene.geometry[scene.graph[node][1]]) for node in scene.graph.nodes_geometry]
+    parts = [
+        (scene.graph[node][0], scene.geometry[scene.graph[node][1]])
+        for node in scene.graph.nodes_geometry
+    ]
     for matrix, part in parts:
         if not hasattr(part, "faces"):
             continue
@@ -135,23 +165,46 @@ def of_trimesh(path: Path) -> Read:
             if uv is not None and np.shape(uv) == (len(part.vertices), 2):
                 values.setdefault("texcoord", []).append(np.asarray(uv)[faces])
             names.add(str(getattr(part.visual.material, "name", "") or ""))
-            looks += _looks_of_trimesh(part.visual.material) if path.suffix.lower() in (".glb", ".gltf", ".obj") else []
+            looks += (
+                _looks_of_trimesh(part.visual.material)
+                if path.suffix.lower() in (".glb", ".gltf", ".obj")
+                else []
+            )
         elif part.visual.kind == "vertex":
             values.setdefault("color", []).append(part.visual.vertex_colors[faces][..., :3] / 255)
         if "vertex_normals" in part._cache and np.array_equal(matrix, np.eye(4)):
             values.setdefault("normal", []).append(part.vertex_normals[faces])
-    complete = {name: np.concatenate(tables) for name, tables in values.items() if len(tables) == len(triangles) - 1}
+    complete = {
+        name: np.concatenate(tables)
+        for name, tables in values.items()
+        if len(tables) == len(triangles) - 1
+    }
     several = path.suffix.lower() == ".3mf" and len(parts) == len(scene.geometry) > 1
-    groups = {name for name in scene.geometry if several and not name.isdigit()}  # a number is its own, for no name
-    return Read(np.concatenate(triangles), complete, names - {"", "default", "material_0"}, groups, looks=looks)
+    # A number is its own, for no name.
+    groups = {name for name in scene.geometry if several and not name.isdigit()}
+    return Read(
+        np.concatenate(triangles),
+        complete,
+        names - {"", "default", "material_0"},
+        groups,
+        looks=looks,
+    )
 
 
 def _looks_of_trimesh(material: Any) -> list[tuple[float, ...]]:
     """Its material of glTF, or of MTL where that says a color, which is in sRGB."""
     if hasattr(material, "baseColorFactor"):
-        color = (1.0, 1.0, 1.0) if material.baseColorFactor is None else (material.baseColorFactor[:3] / 255).tolist()
-        factors = (1.0 if f is None else f for f in (material.metallicFactor, material.roughnessFactor))
-        return [(*color, material.baseColorTexture is not None, *factors, bool(material.doubleSided))]
+        color = (
+            (1.0, 1.0, 1.0)
+            if material.baseColorFactor is None
+            else (material.baseColorFactor[:3] / 255).tolist()
+        )
+        factors = (
+            1.0 if f is None else f for f in (material.metallicFactor, material.roughnessFactor)
+        )
+        return [
+            (*color, material.baseColorTexture is not None, *factors, bool(material.doubleSided))
+        ]
     color = to_linear(np.asarray(getattr(material, "diffuse", UNSAID))[None, :3] / 255)[0].tolist()
     has_look = not np.array_equal(getattr(material, "diffuse", UNSAID), UNSAID)
     return [(*color, 1.0 if material.image else np.nan, *3 * [np.nan])] if has_look else []
@@ -159,29 +212,53 @@ def _looks_of_trimesh(material: Any) -> list[tuple[float, ...]]:
 
 def of_lib3mf(path: Path) -> Read:
     """The triangles of the objects of a 3MF where its build places them, and the materials that they use."""
-    model = imported("lib3mf", "3MF files are compared with lib3mf", "formats").get_wrapper().CreateModel()
+    model = (
+        imported("lib3mf", "3MF files are compared with lib3mf", "formats")
+        .get_wrapper()
+        .CreateModel()
+    )
     model.QueryReader("3mf").ReadFromFile(str(path))
-    items, waiting, triangles, used = model.GetBuildItems(), list[Any](), [np.zeros((0, 3, 3))], set[tuple[int, int]]()
+    items, waiting, triangles, used = (
+        model.GetBuildItems(),
+        list[Any](),
+        [np.zeros((0, 3, 3))],
+        set[tuple[int, int]](),
+    )
 
     def placed(transform: Any) -> Array:
-        return np.array([[*row, end] for row, end in zip(transform.Fields, (0, 0, 0, 1), strict=True)])
+        return np.array(
+            [[*row, end] for row, end in zip(transform.Fields, (0, 0, 0, 1), strict=True)]
+        )
 
     while items.MoveNext():
-        waiting.append((items.GetCurrent().GetObjectResource(), placed(items.GetCurrent().GetObjectTransform())))
+        waiting.append(
+            (
+                items.GetCurrent().GetObjectResource(),
+                placed(items.GetCurrent().GetObjectTransform()),
+            )
+        )
     while waiting:
         item, matrix = waiting.pop()
         if item.IsComponentsObject():
             parts = map(item.GetComponent, range(item.GetComponentCount()))
-            waiting += [(part.GetObjectResource(), placed(part.GetTransform()) @ matrix) for part in parts]
+            waiting += [
+                (part.GetObjectResource(), placed(part.GetTransform()) @ matrix) for part in parts
+            ]
             continue
         points = np.array([[*vertex.Coordinates, 1.0] for vertex in item.GetVertices()]) @ matrix
         faces = np.array([triangle.Indices[:] for triangle in item.GetTriangleIndices()])
         triangles.append(points[faces[:, ::-1] if np.linalg.det(matrix) < 0 else faces][..., :3])
         usual, of_usual, _ = item.GetObjectLevelProperty()
-        properties = [(one.ResourceID, one.PropertyIDs[0]) for one in item.GetAllTriangleProperties()]
+        properties = [
+            (one.ResourceID, one.PropertyIDs[0]) for one in item.GetAllTriangleProperties()
+        ]
         used |= {one if one[0] else (usual, of_usual) for one in properties}
-    plain = [one for one in used if one[0] and model.GetPropertyTypeByID(one[0]).name == "BaseMaterial"]
-    colors = [model.GetBaseMaterialGroupByID(owner).GetDisplayColor(place) for owner, place in plain]
+    plain = [
+        one for one in used if one[0] and model.GetPropertyTypeByID(one[0]).name == "BaseMaterial"
+    ]
+    colors = [
+        model.GetBaseMaterialGroupByID(owner).GetDisplayColor(place) for owner, place in plain
+    ]
     linear = [to_linear(np.array([[c.Red, c.Green, c.Blue]]) / 255)[0].tolist() for c in colors]
     return Read(np.concatenate(triangles), looks=[(*color, 0.0, *3 * [np.nan]) for color in linear])
 
@@ -196,7 +273,15 @@ def of_collada(path: Path) -> Read:
     for effect in (part.material.effect for part in drawn):
         plain = isinstance(effect.diffuse, tuple)
         color = to_linear(np.array([effect.diffuse[:3]]))[0].tolist() if plain else 3 * [1.0]
-        looks.append((*color, not plain and effect.diffuse is not None, np.nan, np.nan, bool(effect.double_sided)))
+        looks.append(
+            (
+                *color,
+                not plain and effect.diffuse is not None,
+                np.nan,
+                np.nan,
+                bool(effect.double_sided),
+            )
+        )
     return Read(np.zeros((min(len(drawn), 1), 3, 3)), looks=looks)
 
 
@@ -221,16 +306,25 @@ def of_pymeshlab(path: Path) -> Read:
     library = imported("pymeshlab", "files are compared with PyMeshLab", "replicate")
     everything = library.MeshSet()
     everything.load_new_mesh(str(path))
-    colored = path.suffix.lower() != ".obj" or re.search(rb"^v([ \t]+\S+){6}", path.read_bytes(), re.M)
+    colored = path.suffix.lower() != ".obj" or re.search(
+        rb"^v([ \t]+\S+){6}", path.read_bytes(), re.M
+    )
     triangles, values = [np.zeros((0, 3, 3))], dict[str, list[Array]]()
     for mesh in everything:
         faces = mesh.face_matrix()
         triangles.append(mesh.transformed_vertex_matrix()[faces])
         if mesh.has_vertex_color() and colored:  # in others, it makes colors of those of materials
             values.setdefault("color", []).append(mesh.vertex_color_matrix()[faces][..., :3])
-        if mesh.has_wedge_tex_coord() and mesh.wedge_tex_coord_matrix().any():  # zeros: it has not read them
-            values.setdefault("texcoord", []).append(mesh.wedge_tex_coord_matrix().reshape(-1, 3, 2))
-    complete = {name: np.concatenate(tables) for name, tables in values.items() if len(tables) == len(triangles) - 1}
+        # Zeros: it has not read them.
+        if mesh.has_wedge_tex_coord() and mesh.wedge_tex_coord_matrix().any():
+            values.setdefault("texcoord", []).append(
+                mesh.wedge_tex_coord_matrix().reshape(-1, 3, 2)
+            )
+    complete = {
+        name: np.concatenate(tables)
+        for name, tables in values.items()
+        if len(tables) == len(triangles) - 1
+    }
     return Read(np.concatenate(triangles), complete)
 
 
@@ -246,16 +340,27 @@ def of_polygons(points: Array, sizes: Sequence[int], corners: Array) -> Read:
     sums = np.zeros((len(counts), 3))
     np.add.at(sums, faces, vectors)
     normals = sums / np.maximum(np.linalg.norm(sums, axis=1), 1e-300)[:, None]
-    heights = np.abs(((triangles - triangles[:, :1]) * normals[faces][:, None]).sum(axis=2)).max(axis=1, initial=0.0)
+    heights = np.abs(((triangles - triangles[:, :1]) * normals[faces][:, None]).sum(axis=2)).max(
+        axis=1, initial=0.0
+    )
     areas = np.linalg.norm(vectors, axis=1)
-    size = float(np.linalg.norm(np.ptp(triangles.reshape(-1, 3), axis=0))) if len(triangles) else 1.0
+    size = (
+        float(np.linalg.norm(np.ptp(triangles.reshape(-1, 3), axis=0))) if len(triangles) else 1.0
+    )
     added = areas * heights / (size or 1.0) + areas - np.abs((vectors * normals[faces]).sum(axis=1))
     quads = np.flatnonzero(counts == 4)
     turned = points[corners[first[quads][:, None] + [[1, 2, 3, 1, 3, 0]]]].reshape(-1, 2, 3, 3)
-    other_areas = np.linalg.norm(np.cross(turned[:, :, 1] - turned[:, :, 0], turned[:, :, 2] - turned[:, :, 0]), axis=2)
-    cut = np.minimum(np.bincount(faces, areas, len(counts))[quads], other_areas.sum(axis=1))  # more where edges cross
+    other_areas = np.linalg.norm(
+        np.cross(turned[:, :, 1] - turned[:, :, 0], turned[:, :, 2] - turned[:, :, 0]), axis=2
+    )
+    # More where edges cross.
+    cut = np.minimum(np.bincount(faces, areas, len(counts))[quads], other_areas.sum(axis=1))
     crossed = (cut - np.linalg.norm(sums, axis=1)[quads]).sum()
-    return Read(triangles, normals=normals[faces], uneven=2 * float((added.sum() + crossed) / (areas.sum() or 1.0)))
+    return Read(
+        triangles,
+        normals=normals[faces],
+        uneven=2 * float((added.sum() + crossed) / (areas.sum() or 1.0)),
+    )
 
 
 def of_off(path: Path) -> Read:
@@ -266,9 +371,14 @@ def of_off(path: Path) -> Read:
         lines[0] = lines[0][1:]
     lines = [line for line in lines if line]
     points, faces = map(int, lines[0][:2])
-    rows = [[int(word) for word in line] for line in (line[: int(line[0]) + 1] for line in lines[1 + points :][:faces])]
+    rows = [
+        [int(word) for word in line]
+        for line in (line[: int(line[0]) + 1] for line in lines[1 + points :][:faces])
+    ]
     positions = np.array([line[:3] for line in lines[1 : points + 1]], np.float64)
-    return of_polygons(positions, [len(row) - 1 for row in rows], np.array([v for row in rows for v in row[1:]]))
+    return of_polygons(
+        positions, [len(row) - 1 for row in rows], np.array([v for row in rows for v in row[1:]])
+    )
 
 
 def of_obj(path: Path) -> Read:
@@ -299,9 +409,16 @@ def of_usd(path: Path) -> Read:
     points = [np.zeros((0, 3))]
     sizes, corners, many = [np.zeros(0, np.int64)], [np.zeros(0, np.int64)], 0
     cache = geom.XformCache(code)
-    purposes = {geom.Imageable(prim).ComputePurpose() for prim in stage.Traverse() if geom.Mesh(prim)}
-    left_out = {geom.Tokens.guide, geom.Tokens.proxy if geom.Tokens.render in purposes else geom.Tokens.guide}
-    for prim in usd.PrimRange(stage.GetPseudoRoot(), usd.TraverseInstanceProxies(usd.PrimDefaultPredicate)):
+    purposes = {
+        geom.Imageable(prim).ComputePurpose() for prim in stage.Traverse() if geom.Mesh(prim)
+    }
+    left_out = {
+        geom.Tokens.guide,
+        geom.Tokens.proxy if geom.Tokens.render in purposes else geom.Tokens.guide,
+    }
+    for prim in usd.PrimRange(
+        stage.GetPseudoRoot(), usd.TraverseInstanceProxies(usd.PrimDefaultPredicate)
+    ):
         mesh, imageable = geom.Mesh(prim), geom.Imageable(prim)
         if (
             not mesh
@@ -310,10 +427,14 @@ def of_usd(path: Path) -> Read:
         ):
             continue
         matrix = np.array(cache.GetLocalToWorldTransform(prim))
-        points.append(np.asarray(mesh.GetPointsAttr().Get(code), np.float64) @ matrix[:3, :3] + matrix[3, :3])
+        points.append(
+            np.asarray(mesh.GetPointsAttr().Get(code), np.float64) @ matrix[:3, :3] + matrix[3, :3]
+        )
         rows = np.asarray(mesh.GetFaceVertexIndicesAttr().Get(code))
         counts = np.asarray(mesh.GetFaceVertexCountsAttr().Get(code))
-        if (mesh.GetOrientationAttr().Get() == geom.Tokens.leftHanded) != (np.linalg.det(matrix[:3, :3]) < 0):
+        if (mesh.GetOrientationAttr().Get() == geom.Tokens.leftHanded) != (
+            np.linalg.det(matrix[:3, :3]) < 0
+        ):
             begin = np.repeat(2 * (np.cumsum(counts) - counts) + counts - 1, counts)
             rows = rows[begin - np.arange(len(rows))]
         is_kept = ~np.isin(np.arange(len(counts)), mesh.GetHoleIndicesAttr().Get(code) or [])
@@ -321,11 +442,16 @@ def of_usd(path: Path) -> Read:
         corners.append(rows[np.repeat(is_kept, counts)] + many)
         many += len(points[-1])
         sets = geom.Subset.GetAllGeomSubsets(imageable)
-        for bound in (shade.MaterialBindingAPI(p).ComputeBoundMaterial()[0] for p in map(prim_of, sets or [mesh])):
+        for bound in (
+            shade.MaterialBindingAPI(p).ComputeBoundMaterial()[0]
+            for p in map(prim_of, sets or [mesh])
+        ):
             surface = bound.ComputeSurfaceSource()[0] if bound else None
             if surface and surface.GetIdAttr().Get() == "UsdPreviewSurface":
                 looks.add((*_inputs_of_usd(surface), bool(mesh.GetDoubleSidedAttr().Get())))
-    polygons = of_polygons(np.concatenate(points), np.concatenate(sizes).tolist(), np.concatenate(corners))
+    polygons = of_polygons(
+        np.concatenate(points), np.concatenate(sizes).tolist(), np.concatenate(corners)
+    )
     return replace(polygons, looks=[*looks])
 
 
@@ -334,7 +460,11 @@ def _inputs_of_usd(surface: Any) -> Iterator[float]:
     for name, usual in (("diffuseColor", [0.18] * 3), ("metallic", [0.0]), ("roughness", [0.5])):
         shader_input = surface.GetInput(name)
         sources = shader_input.GetValueProducingAttributes() if shader_input else []
-        painted = bool(sources) and sources[0].GetPrim() != surface.GetPrim() and "rgb" in sources[0].GetName()
+        painted = (
+            bool(sources)
+            and sources[0].GetPrim() != surface.GetPrim()
+            and "rgb" in sources[0].GetName()
+        )
         value = sources[0].Get() if sources else usual
         yield from [np.nan] * len(usual) if value is None else np.reshape(value, -1).tolist()
         if name == "diffuseColor":
@@ -371,7 +501,9 @@ class Apart:
 
     def read(self, name: str, path: Path) -> Read | None:
         for _ in range(2):
-            self._pool = self._pool or ProcessPoolExecutor(1, get_context("spawn"), max_tasks_per_child=40)
+            self._pool = self._pool or ProcessPoolExecutor(
+                1, get_context("spawn"), max_tasks_per_child=40
+            )
             try:
                 return self._pool.submit(attempt, name, path).result(SECONDS)
             except (BrokenExecutor, TimeoutError):
@@ -405,15 +537,25 @@ def compared(path: Path, readers: Sequence[str], apart: Apart) -> Iterator[tuple
     except bsm.BsmError as error:
         over = isinstance(error, bsm.LimitError) or "default limits would refuse" in str(error)
         for name in theirs or ["nobody"]:
-            yield name, "refused" if over else "differs" if theirs else "same", f"{type(error).__name__}: {error}"
+            yield (
+                name,
+                "refused" if over else "differs" if theirs else "same",
+                f"{type(error).__name__}: {error}",
+            )
         return
     if notes and notes[0] == "grid14":
         most = ON_GRID
     words = " | ".join((*file.notes, *notes)).lower()
-    differences_by_name = {name: dict(differences(name, ours, read, most, words)) for name, read in theirs.items()}
-    right = any(name in EVEN and not {*differences_by_name[name]}.intersection(SHAPE) for name in differences_by_name)
+    differences_by_name = {
+        name: dict(differences(name, ours, read, most, words)) for name, read in theirs.items()
+    }
+    right = any(
+        name in EVEN and not {*differences_by_name[name]}.intersection(SHAPE)
+        for name in differences_by_name
+    )
     for name, wrong in differences_by_name.items():
-        is_settled = right and not {*wrong}.isdisjoint(SHAPE)  # its triangles, and so its values, are others
+        # Its triangles, and so its values, are others.
+        is_settled = right and not {*wrong}.isdisjoint(SHAPE)
         for what, difference in wrong.items():
             result = "noted" if _WORDS.get(what, what) in words else "differs"
             settled = is_settled and what not in ("materials", "groups")
@@ -422,13 +564,19 @@ def compared(path: Path, readers: Sequence[str], apart: Apart) -> Iterator[tuple
             yield name, "same", ""
 
 
-def differences(name: str, ours: Read, read: Read, most: float, words: str) -> Iterator[tuple[str, str]]:
+def differences(
+    name: str, ours: Read, read: Read, most: float, words: str
+) -> Iterator[tuple[str, str]]:
     """In what ours differs from another reader's, and how."""
     moments, most = ours.moments(), most + min(read.uneven, UNEVEN)
     has_shape = name != "pycollada"  # which is asked for colors only
     for what, value in (read.moments() if has_shape else {}).items():
         mine = moments.get(what)
-        off = np.inf if mine is None or mine.shape != value.shape else float(np.abs(mine - value).max())
+        off = (
+            np.inf
+            if mine is None or mine.shape != value.shape
+            else float(np.abs(mine - value).max())
+        )
         if not off <= most * (1 if what != "area" else float(value[0])):
             yield what, "is lost" if mine is None else f"differs by {off:.2g}"
     for what in ("materials", "groups"):
@@ -437,8 +585,13 @@ def differences(name: str, ours: Read, read: Read, most: float, words: str) -> I
     for look in sorted({*read.looks}):
         if not any(np.nanmax(np.abs(np.subtract(look, mine))) < OF_LOOKS for mine in ours.looks):
             yield "looks", f"lost: {np.round(look, 3).tolist()}"
-    fans = read.normals is not None or not has_shape  # corners in line have no area in one cut, and one in another
-    if (mine_too := ours.count()) != (count := read.count()) and "without area" not in words and not fans:
+    # Corners in line have no area in one cut, and one in another.
+    fans = read.normals is not None or not has_shape
+    if (
+        (mine_too := ours.count()) != (count := read.count())
+        and "without area" not in words
+        and not fans
+    ):
         yield "triangles", f"{mine_too}, by {name} {count}"
 
 
@@ -467,7 +620,9 @@ def listed(folder: Path, names: Sequence[str], most: int) -> Iterator[tuple[str,
         except (OSError, subprocess.SubprocessError) as error:
             print(f"missing: {package['package']} ({error})", file=sys.stderr)
             continue
-        for name, digest in list(package["files"].items())[:: max(1, len(package["files"]) // most) if most else 1]:
+        for name, digest in list(package["files"].items())[
+            :: max(1, len(package["files"]) // most) if most else 1
+        ]:
             if hashlib.sha256((root / name).read_bytes()).hexdigest()[: len(digest)] == digest:
                 yield f"{package['package']}/{name}", root / name
             else:
@@ -494,7 +649,9 @@ WEB = Path(__file__).parents[2] / "web"
 def errors_of(paths: Sequence[Path]) -> list[list[str]]:
     """The errors that the Khronos validator finds in glTF files; it must be installed (`npm ci` in web/)."""
     command = ["node", "--input-type=module", "-e", VALIDATOR, *map(str, paths)]
-    output = subprocess.run(command, cwd=WEB, capture_output=True, text=True, check=True, timeout=600).stdout
+    output = subprocess.run(
+        command, cwd=WEB, capture_output=True, text=True, check=True, timeout=600
+    ).stdout
     return [json.loads(line) for line in output.splitlines()]
 
 
@@ -521,8 +678,17 @@ def rewritten(paths: Sequence[Path], folder: Path) -> Iterator[tuple[Path, str, 
 
 def scenes_in(folders: Sequence[Path]) -> int:
     """Print how scenes in folders fare; return how many errors are new."""
-    digests = {digest for source in json.loads(LIST.read_text())["scenes"] for digest in source["files"].values()}
-    paths = [path for folder in folders for path in sorted(folder.rglob("*")) if path.suffix in (".glb", ".gltf")]
+    digests = {
+        digest
+        for source in json.loads(LIST.read_text())["scenes"]
+        for digest in source["files"].values()
+    }
+    paths = [
+        path
+        for folder in folders
+        for path in sorted(folder.rglob("*"))
+        if path.suffix in (".glb", ".gltf")
+    ]
     paths = [path for path in paths if path.stat().st_size <= LARGEST]
     listed_ones = sum(hashlib.sha256(path.read_bytes()).hexdigest() in digests for path in paths)
     refused, outputs, added = 0, 0, 0
@@ -532,7 +698,9 @@ def scenes_in(folders: Sequence[Path]) -> int:
             outputs += not what.startswith("refused")
             added += errors.total()
             if errors or what.startswith("refused"):
-                print(f"{path}: {what}{': ' if errors else ''}{', '.join(sorted(errors))}", flush=True)
+                print(
+                    f"{path}: {what}{': ' if errors else ''}{', '.join(sorted(errors))}", flush=True
+                )
     print(
         f"{len(paths)} scenes, {listed_ones} of them listed, {refused} refused; {outputs} outputs, {added} new errors"
     )
@@ -544,29 +712,53 @@ def main() -> NoReturn:
     parser = parser_of(__doc__)
     parser.add_argument("folders", nargs="*", type=Path, help="more files: folders that are walked")
     parser.add_argument(
-        "--cache", type=Path, default=Path(tempfile.gettempdir(), "bsm-doors"), help="where packages lie"
+        "--cache",
+        type=Path,
+        default=Path(tempfile.gettempdir(), "bsm-doors"),
+        help="where packages lie",
     )
-    parser.add_argument("--packages", nargs="*", metavar="NAME", help="files of packages of doors.json (default: all)")
-    parser.add_argument("--each", type=int, default=0, metavar="N", help="about N files of each package only")
-    parser.add_argument("--readers", nargs="*", choices=OTHERS, default=list(OTHERS), help="who is compared with")
     parser.add_argument(
-        "--scenes", nargs="+", type=Path, metavar="FOLDER", help="rewrite the scenes there, and count new errors"
+        "--packages",
+        nargs="*",
+        metavar="NAME",
+        help="files of packages of doors.json (default: all)",
     )
-    parser.add_argument("--acts", action="store_true", help="also write GLB and USD, and ask three.js and usd-core")
+    parser.add_argument(
+        "--each", type=int, default=0, metavar="N", help="about N files of each package only"
+    )
+    parser.add_argument(
+        "--readers", nargs="*", choices=OTHERS, default=list(OTHERS), help="who is compared with"
+    )
+    parser.add_argument(
+        "--scenes",
+        nargs="+",
+        type=Path,
+        metavar="FOLDER",
+        help="rewrite the scenes there, and count new errors",
+    )
+    parser.add_argument(
+        "--acts", action="store_true", help="also write GLB and USD, and ask three.js and usd-core"
+    )
     args = parser.parse_args()
     if args.scenes:
         sys.exit(min(scenes_in(args.scenes), 1))
     files = list(listed(args.cache, args.packages, args.each)) if args.packages is not None else []
     for folder in args.folders:
         here = [path for path in sorted(folder.rglob("*")) if path.suffix[1:].lower() in KINDS]
-        files += [(str(path.relative_to(folder)), path) for path in here if path.stat().st_size <= LARGEST]
+        files += [
+            (str(path.relative_to(folder)), path) for path in here if path.stat().st_size <= LARGEST
+        ]
     explained = json.loads(LIST.read_text())["explained"]
     counts, findings, apart = Counter[str](), 0, Apart()
     written = tempfile.TemporaryDirectory()
     acts = Acts(Path(written.name))
 
     def wrong(differing: Iterator[tuple[str, str]]) -> int:
-        texts = [text for text in (f"{n}: {d}" for n, d in differing) if not any(key in text for key in explained)]
+        texts = [
+            text
+            for text in (f"{n}: {d}" for n, d in differing)
+            if not any(key in text for key in explained)
+        ]
         print("\n".join(texts), end="\n" * bool(texts), flush=True)
         return len(texts)
 
@@ -581,7 +773,10 @@ def main() -> NoReturn:
             counts["refused"] += 1
         for reader, result, difference in compared(path, args.readers, apart):
             texts = f"{reader} {name}: {difference}"
-            why = next((why for key, why in explained.items() if fnmatch.fnmatchcase(texts, f"*{key}*")), "")
+            why = next(
+                (why for key, why in explained.items() if fnmatch.fnmatchcase(texts, f"*{key}*")),
+                "",
+            )
             result = "explained" if result == "differs" and why else result
             counts[result] += 1
             if result == "differs":

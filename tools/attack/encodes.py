@@ -42,7 +42,9 @@ def store(path: Path, decoded: Decoded) -> None:
 def stored(path: Path) -> Decoded:
     """What `store` has written."""
     with np.load(path) as file:
-        attributes = {str(name): file[f"array {number}"] for number, name in enumerate(file["names"])}
+        attributes = {
+            str(name): file[f"array {number}"] for number, name in enumerate(file["names"])
+        }
         return file["positions"], file["faces"], attributes
 
 
@@ -58,7 +60,9 @@ def main() -> None:
     warnings.simplefilter("ignore")
     args.folder.mkdir(parents=True, exist_ok=True)
     for k, stream in enumerate(random_streams(args.seed, args.count)):
-        (args.folder / f"{k}.bsm").write_bytes(stream if isinstance(stream, bytes) else stream.encode())
+        (args.folder / f"{k}.bsm").write_bytes(
+            stream if isinstance(stream, bytes) else stream.encode()
+        )
     for path in args.streams.glob("*.bsm"):
         if path.stat().st_size == 0:
             continue

@@ -24,7 +24,10 @@ def growth(make: Callable[[int], Sample], most: float = MOST_GROWTH, times: int 
     least = [float("inf")] * 2
     for _ in range(times):
         with tempfile.TemporaryDirectory() as folder:
-            works = [partial(reading, partial(make, size), Path(folder), Limits()) for size in (SIZE, 4 * SIZE)]
+            works = [
+                partial(reading, partial(make, size), Path(folder), Limits())
+                for size in (SIZE, 4 * SIZE)
+            ]
             for number, cost in enumerate(taken_by_each(works, seconds=30)):
                 least[number] = min(least[number], float("inf") if cost.escaped else cost.seconds)
         if least[1] < max(LEAST_SECONDS, most * least[0]):
@@ -35,8 +38,19 @@ def growth(make: Callable[[int], Sample], most: float = MOST_GROWTH, times: int 
 def main() -> int:
     """Run the command."""
     parser = parser_of(__doc__)
-    parser.add_argument("--most", type=float, default=MOST_GROWTH, help="growth at four times (default: %(default)s)")
+    parser.add_argument(
+        "--most",
+        type=float,
+        default=MOST_GROWTH,
+        help="growth at four times (default: %(default)s)",
+    )
     most = parser.parse_args().most
     warm_up()
-    growths = {name: growth(lambda size, name=name: grown(size)[name](), most) for name in filter(is_ours, grown(1))}  # type: ignore[misc]
-    return report((f"{name}: {problem}" for name, problem in growths.items() if problem), f"{len(growths)} files")
+    growths = {
+        name: growth(lambda size, name=name: grown(size)[name](), most)  # type: ignore[misc]
+        for name in filter(is_ours, grown(1))
+    }
+    return report(
+        (f"{name}: {problem}" for name, problem in growths.items() if problem),
+        f"{len(growths)} files",
+    )

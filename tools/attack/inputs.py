@@ -18,7 +18,16 @@ from bsm.codec.static.options import PRESETS, EncodeOptions, changed
 from bsm.codec.static.targets import TARGETS, Target
 from tests.shapes import soup
 from tools.gridded import random_grid
-from tools.vectors.meshes import hub, patch, shuffled, tangled, tetrahedron, together, torus, triangle
+from tools.vectors.meshes import (
+    hub,
+    patch,
+    shuffled,
+    tangled,
+    tetrahedron,
+    together,
+    torus,
+    triangle,
+)
 
 ATTRIBUTES = 0.25
 """Share of meshes that have one, and of those that have another."""
@@ -89,7 +98,12 @@ def _disorder(random: Random) -> TriangleMesh:
 
 def _components(random: Random) -> TriangleMesh:
     """Up to forty of them."""
-    small: list[Callable[[], TriangleMesh]] = [tetrahedron, triangle, lambda: torus(5, 4), lambda: patch(3, 3)]
+    small: list[Callable[[], TriangleMesh]] = [
+        tetrahedron,
+        triangle,
+        lambda: torus(5, 4),
+        lambda: patch(3, 3),
+    ]
     return together(*(random.choice(small)() for _ in range(random.choice((2, 5, 40)))))
 
 
@@ -130,13 +144,20 @@ def _some(random: Random, choices: dict[str, Callable[[], Any]], share: float) -
 
 def _static_options(random: Random) -> EncodeOptions:
     way = random.randrange(8)
-    options: dict[str, Any] = {"block_size": random.choice((12, 30, 30, 60, 100, 750)), "threads": 1}
+    options: dict[str, Any] = {
+        "block_size": random.choice((12, 30, 30, 60, 100, 750)),
+        "threads": 1,
+    }
     if way == 0:
         preset = vars(PRESETS[random.choice(sorted({*PRESETS} - {"none"}))])
-        return EncodeOptions(**{**preset, "effort": random.choice(("quick", "normal", "normal")), "threads": 1})
+        return EncodeOptions(
+            **{**preset, "effort": random.choice(("quick", "normal", "normal")), "threads": 1}
+        )
     if way == 1:
         keep, effort = random.random() < 0.3, random.choice(("quick", "normal"))
-        return EncodeOptions(grid=random.randrange(1, 21), threads=1, keep_order=keep, effort=effort)
+        return EncodeOptions(
+            grid=random.randrange(1, 21), threads=1, keep_order=keep, effort=effort
+        )
     if way == 2:
         options["target"] = Target(random.choice(TARGETS), random.choice((0.01, 1.0, 8.0, 400.0)))
     elif way == 3:
@@ -182,14 +203,23 @@ def _sequence(random: Random) -> bytes:
     moving = random.random() < MOVING
     if not moving:  # few columns cannot tell of attributes as well as is asked
         choices["keep"] = lambda: random.choice((0.005, 0.05, 0.5))
-    options = {"step": 2.0 ** -random.randrange(4, 14), "block_size": random.choice((12, 36, 100)), "threads": 1}
+    options = {
+        "step": 2.0 ** -random.randrange(4, 14),
+        "block_size": random.choice((12, 36, 100)),
+        "threads": 1,
+    }
     chosen = SequenceOptions(**{**options, **_some(random, choices, 0.4)})
     if moving:
-        kind, width = random.choice(("uint8", "int16", "float32", "float64")), random.randrange(1, 5)
+        kind, width = (
+            random.choice(("uint8", "int16", "float32", "float64")),
+            random.randrange(1, 5),
+        )
         places = np.resize(still / (np.abs(still).max() or 1.0), (len(still), width))
         meshes = []
         for t, frame in enumerate(positions):
-            attribute = Attribute("moving", (60.0 + 50.0 * np.sin(3.0 * places + 0.7 * t)).astype(kind))
+            attribute = Attribute(
+                "moving", (60.0 + 50.0 * np.sin(3.0 * places + 0.7 * t)).astype(kind)
+            )
             meshes.append(replace(mesh, positions=frame, attributes=(*mesh.attributes, attribute)))
         return b"".join(SequenceEncoder(mesh.faces, chosen, frames).chunks(meshes))
     return encode_sequence(positions, mesh.faces, chosen, mesh_attributes=mesh.attributes)

@@ -27,10 +27,16 @@ STATUS = {
 def outcome_of(decoded: Decoded, stream: bytes) -> Outcome:
     """What the library makes of a stream, its errors translated."""
     if decoded.status:
-        kind: type[BsmError] = getattr(errors, next(name for name, code in STATUS.items() if code == decoded.status))
+        kind: type[BsmError] = getattr(
+            errors, next(name for name, code in STATUS.items() if code == decoded.status)
+        )
         return kind(decoded.message)
     arrays = of_sequence(decoded) if is_sequence(stream) else dict(decoded.arrays)
-    return arrays.pop("positions", np.zeros((0, 3))), arrays.pop("faces", np.zeros((0, 3), np.int32)), arrays
+    return (
+        arrays.pop("positions", np.zeros((0, 3))),
+        arrays.pop("faces", np.zeros((0, 3), np.int32)),
+        arrays,
+    )
 
 
 def loss_difference(decoded: Decoded, stream: bytes) -> str | None:
@@ -44,9 +50,13 @@ def loss_difference(decoded: Decoded, stream: bytes) -> str | None:
     if not is_sequence(stream):
         return None
     if losses:
-        arrays = ({name: values for name, values in each[2].items() if name == "runs"} for each in (outcome, expected))
+        arrays = (
+            {name: values for name, values in each[2].items() if name == "runs"}
+            for each in (outcome, expected)
+        )
         outcome, expected = (
-            (*each[:2], run_arrays) for each, run_arrays in zip((outcome, expected), arrays, strict=True)
+            (*each[:2], run_arrays)
+            for each, run_arrays in zip((outcome, expected), arrays, strict=True)
         )
     return Tally().hold(stream, outcome, expected)
 

@@ -26,7 +26,9 @@ def attribute(rng: np.random.Generator, name: str, rows: dict[str, int]) -> Attr
     kind = np.dtype(str(rng.choice(KINDS)))
     shape = (
         rows[domain],
-        int(rng.integers(1, 5)) if rng.random() < 0.5 else {"normal": 3, "texcoord": 2}.get(semantic, 4),
+        int(rng.integers(1, 5))
+        if rng.random() < 0.5
+        else {"normal": 3, "texcoord": 2}.get(semantic, 4),
     )
     values: Any = rng.standard_normal(shape) * 10.0 ** rng.integers(-30, 30)
     if kind.kind != "f":
@@ -54,12 +56,21 @@ def main(argv: list[str] | None = None) -> int:
     parser.add_argument("--seconds", type=float, default=60.0)
     parser.add_argument("--seed", type=int, default=1)
     args = parser.parse_args(argv)
-    encoder, counts, end, seed = library(*SANITIZED), Counter[int](), time.monotonic() + args.seconds, args.seed
+    encoder, counts, end, seed = (
+        library(*SANITIZED),
+        Counter[int](),
+        time.monotonic() + args.seconds,
+        args.seed,
+    )
     while time.monotonic() < end:
         rng = np.random.default_rng(seed)
         mesh = mesh_of(rng)
         amount = float(rng.choice([1.0, 8.0, 12.0, 1e-3, 50.0]))
-        qualities = {a.name: (str(rng.choice(QUALITIES)), amount) for a in mesh.attributes if rng.random() < 0.5}
+        qualities = {
+            a.name: (str(rng.choice(QUALITIES)), amount)
+            for a in mesh.attributes
+            if rng.random() < 0.5
+        }
         positions, keep = int(rng.choice([0, CELLS, LOSSLESS])), int(rng.integers(2))
         options = {"cell": 10.0 ** float(rng.integers(-3, 1))} if positions == CELLS else {}
         if positions == 0:
@@ -67,9 +78,15 @@ def main(argv: list[str] | None = None) -> int:
         result = encode(encoder, mesh, qualities, positions=positions, keep_order=keep, **options)
         counts[result.status] += 1
         has_requests = bool(qualities) or positions == CELLS  # what a mesh may not be able to keep
-        if result.status not in (0, UNREACHABLE if positions or qualities else 0, MISUSED if has_requests else 0):
+        if result.status not in (
+            0,
+            UNREACHABLE if positions or qualities else 0,
+            MISUSED if has_requests else 0,
+        ):
             print(f"seed {seed}: status {result.status}: {result.message}")
             return 1
         seed += 1
-    print(f"{sum(counts.values())} meshes from seed {args.seed} on, without a finding: {dict(counts)}")
+    print(
+        f"{sum(counts.values())} meshes from seed {args.seed} on, without a finding: {dict(counts)}"
+    )
     return 0

@@ -40,7 +40,22 @@ _NUMBERS = (
     1 << 14,
     2**31 - 1,
 )
-_REALS = (0.0, 0.125, 1.0, 1e-3, 2.0**-30, 2.0**-40, 2.0**20, 2.0**30, 65535.0, 1e6, 1e30, -1e300, 1e300, 1e-300)
+_REALS = (
+    0.0,
+    0.125,
+    1.0,
+    1e-3,
+    2.0**-30,
+    2.0**-40,
+    2.0**20,
+    2.0**30,
+    65535.0,
+    1e6,
+    1e30,
+    -1e300,
+    1e300,
+    1e-300,
+)
 
 
 def mutate_stream(data: bytes, max_size: int, seed: int, mutate: Mutate) -> bytes:
@@ -68,7 +83,11 @@ def _change_payload(frames: Frames, random: Random, mutate: Mutate) -> None:
 
 def _change_coded(frames: Frames, random: Random, mutate: Mutate) -> None:
     """Change the data behind the first bytes, which say what it is."""
-    coded = [i for i, (kind, _) in enumerate(frames) if kind not in (FrameType.HEADER, FrameType.METADATA)]
+    coded = [
+        i
+        for i, (kind, _) in enumerate(frames)
+        if kind not in (FrameType.HEADER, FrameType.METADATA)
+    ]
     if coded:
         place = random.choice(coded)
         kind, payload = frames[place]
@@ -110,7 +129,9 @@ def _change_declaration(frames: Frames, random: Random, mutate: Mutate) -> None:
     if item.key in entries and random.random() < 0.2:
         del entries[item.key]
     elif item.type in (str, bytes):
-        entries[item.key] = mutate(b"", 8) if item.type is bytes else random.choice(("", "x", "color", "y" * 256))
+        entries[item.key] = (
+            mutate(b"", 8) if item.type is bytes else random.choice(("", "x", "color", "y" * 256))
+        )
     elif item.type is tuple:
         had = entries.get(item.key)
         numbers = list(had) if isinstance(had, list) and had else [random.choice(_REALS)]
@@ -123,7 +144,10 @@ def _change_declaration(frames: Frames, random: Random, mutate: Mutate) -> None:
         packed = write_map(sorted(entries.items()))
     except (TypeError, ValueError, OverflowError):
         return
-    frames[place] = (FrameType.ATTRIBUTE, write_varint(index) + write_varint(len(packed)) + packed + seams)
+    frames[place] = (
+        FrameType.ATTRIBUTE,
+        write_varint(index) + write_varint(len(packed)) + packed + seams,
+    )
 
 
 def _value(declared: Field, old: object, random: Random) -> object:
@@ -137,8 +161,14 @@ def _value(declared: Field, old: object, random: Random) -> object:
     if isinstance(old, list) and old and random.random() < 0.7:
         place, step = random.randrange(len(old)), random.choice((1, 1, 2))
         replacement = [_value(part, item, random) for item in old[place : place + step]]
-        return [*old[:place], *random.choice((replacement, replacement, [], 2 * replacement)), *old[place + step :]]
-    return [_value(part, None, random) for _ in range(random.choice((declared.lengths[0], 1, 2, 3)))]
+        return [
+            *old[:place],
+            *random.choice((replacement, replacement, [], 2 * replacement)),
+            *old[place + step :],
+        ]
+    return [
+        _value(part, None, random) for _ in range(random.choice((declared.lengths[0], 1, 2, 3)))
+    ]
 
 
 def _change_block(frames: Frames, random: Random, mutate: Mutate) -> None:
@@ -167,7 +197,10 @@ def _recut(frames: Frames, random: Random, mutate: Mutate) -> None:
         frames.insert(behind, (FrameType.CONNECTIVITY, data[cut:]))
         return
     next_place = places[which + 1]
-    joined, cut = data + frames[next_place][1][1:], len(data) + random.choice((-4, -1, 1, 1, 3, 4, 5, 9))
+    joined, cut = (
+        data + frames[next_place][1][1:],
+        len(data) + random.choice((-4, -1, 1, 1, 3, 4, 5, 9)),
+    )
     cut = min(max(cut, 0), len(joined))
     frames[place] = (FrameType.CONNECTIVITY, joined[:cut])
     frames[next_place] = (FrameType.CONNECTIVITY, joined[cut:])
@@ -191,7 +224,15 @@ def _move(frames: Frames, random: Random, mutate: Mutate) -> None:
 
 
 _STEPS = (
-    *(_change_payload, _change_coded, _change_coded, _change_header, _change_header, _change_block, _move),
+    *(
+        _change_payload,
+        _change_coded,
+        _change_coded,
+        _change_header,
+        _change_header,
+        _change_block,
+        _move,
+    ),
     _change_declaration,
     _recut,
 )

@@ -35,7 +35,13 @@ class Place:
         path = f"{self.sources}{os.pathsep}{self.sources / 'src'}"
         there = {**os.environ, "PYTHONPATH": path, **self.variables}
         return subprocess.run(
-            command, cwd=self.sources, env=there, capture_output=True, text=True, errors="replace", check=False
+            command,
+            cwd=self.sources,
+            env=there,
+            capture_output=True,
+            text=True,
+            errors="replace",
+            check=False,
         )
 
 
@@ -44,9 +50,16 @@ def processors(short: bool = False) -> tuple[Place, ...]:
 
     `short` leaves the least alone: the greatest is what the kernels of a checkout run.
     """
-    needs = {1: set(), 2: {"sse4_2", "ssse3"}, 3: {"avx2", "fma", "bmi2"}, 4: {"avx512f", "avx512vl", "avx512dq"}}
+    needs = {
+        1: set(),
+        2: {"sse4_2", "ssse3"},
+        3: {"avx2", "fma", "bmi2"},
+        4: {"avx512f", "avx512vl", "avx512dq"},
+    }
     names = {1: "Prescott", 2: "Nehalem", 3: "Haswell", 4: "SkylakeX"}
-    places = [_processor(level, names[level]) for level, needed in needs.items() if needed <= _flags()]
+    places = [
+        _processor(level, names[level]) for level, needed in needs.items() if needed <= _flags()
+    ]
     return tuple(places[:1] if short else places)
 
 
@@ -54,7 +67,11 @@ def _processor(level: int, blas: str) -> Place:
     return Place(
         f"x86-64-v{level}, {blas}",
         BUILD / f"level{level}",
-        {"OPENBLAS_CORETYPE": blas, "OMP_NUM_THREADS": "1", "NPY_DISABLE_CPU_FEATURES": " ".join(_beyond(level))},
+        {
+            "OPENBLAS_CORETYPE": blas,
+            "OMP_NUM_THREADS": "1",
+            "NPY_DISABLE_CPU_FEATURES": " ".join(_beyond(level)),
+        },
     )
 
 
@@ -68,7 +85,11 @@ def _flags() -> frozenset[str]:
 def _beyond(level: int) -> list[str]:
     """What numpy has code for and a processor of this level has not."""
     umath = np._core._multiarray_umath  # type: ignore[attr-defined]
-    return [name for name in umath.__cpu_dispatch__ if umath.__cpu_features__[name] and _level_of(name) > level]
+    return [
+        name
+        for name in umath.__cpu_dispatch__
+        if umath.__cpu_features__[name] and _level_of(name) > level
+    ]
 
 
 def _level_of(feature: str) -> int:
@@ -115,19 +136,35 @@ def environments() -> tuple[Place, ...]:
         {"PYTHONWARNINGS": "error"},
     )
     places = [
-        Place(" ".join(f"{key}={value}" for key, value in values.items()), variables=values) for values in variables
+        Place(" ".join(f"{key}={value}" for key, value in values.items()), variables=values)
+        for values in variables
     ]
     places += [
-        Place(f"python {' '.join(flags)}", flags=flags) for flags in (("-O",), ("-OO",), ("-B", "-s"), ("-X", "dev"))
+        Place(f"python {' '.join(flags)}", flags=flags)
+        for flags in (("-O",), ("-OO",), ("-B", "-s"), ("-X", "dev"))
     ]
-    limits = ("ulimit -n 24", "ulimit -s 512", "ulimit -c 0; umask 777", "ulimit -f 4096", "exec 0<&-", "exec 2>&-")
-    places += [Place(limit, wrapper=("bash", "-c", f'{limit}; exec "$@"', "bash")) for limit in limits]
+    limits = (
+        "ulimit -n 24",
+        "ulimit -s 512",
+        "ulimit -c 0; umask 777",
+        "ulimit -f 4096",
+        "exec 0<&-",
+        "exec 2>&-",
+    )
+    places += [
+        Place(limit, wrapper=("bash", "-c", f'{limit}; exec "$@"', "bash")) for limit in limits
+    ]
     if shutil.which("taskset"):
         places.append(Place("one core", wrapper=("taskset", "-c", "0")))
     if shutil.which("setsid"):
         places.append(Place("no terminal", wrapper=("setsid", "-w")))
     if shutil.which("gcc"):
-        places.append(Place("a library that flushes small numbers to zero", variables={"LD_PRELOAD": str(_flushing())}))
+        places.append(
+            Place(
+                "a library that flushes small numbers to zero",
+                variables={"LD_PRELOAD": str(_flushing())},
+            )
+        )
     return tuple(places)
 
 

@@ -59,11 +59,21 @@ class Part:
 def main() -> int:
     """Run the command."""
     parser = parser_of(__doc__)
-    parser.add_argument("--short", action="store_true", help="a minute of everything, on two processors")
+    parser.add_argument(
+        "--short", action="store_true", help="a minute of everything, on two processors"
+    )
     parser.add_argument("--only", nargs="+", metavar="SUITE", help="these suites alone")
     parser.add_argument("--seed", default="0", help="default: %(default)s")
-    parser.add_argument("-j", "--jobs", type=int, default=os.cpu_count() or 1, help="shards at a time (one per core)")
-    parser.add_argument("--folder", type=Path, default=Path(".cache/proof"), help="default: %(default)s")
+    parser.add_argument(
+        "-j",
+        "--jobs",
+        type=int,
+        default=os.cpu_count() or 1,
+        help="shards at a time (one per core)",
+    )
+    parser.add_argument(
+        "--folder", type=Path, default=Path(".cache/proof"), help="default: %(default)s"
+    )
     args = parser.parse_args()
     begin = time.monotonic()
     parts = [part for part in plan(args) if not args.only or part.suite in args.only]
@@ -88,7 +98,10 @@ def plan(args: argparse.Namespace) -> list[Part]:
     """All shards, the suites in turn, so that a run that is stopped has done a little of everything."""
     places = range(0, len(environments()), 8 if args.short else 1)
     queues = [
-        *([Part(name, *cut) for cut in cuts(sizes[args.short], shard)] for name, (shard, *sizes) in INPUTS.items()),
+        *(
+            [Part(name, *cut) for cut in cuts(sizes[args.short], shard)]
+            for name, (shard, *sizes) in INPUTS.items()
+        ),
         [Part("surroundings", number, SURROUNDINGS) for number in places],
     ]
     shares = [(place / len(queue), part) for queue in queues for place, part in enumerate(queue)]
@@ -105,11 +118,19 @@ def run(part: Part, args: argparse.Namespace, findings: Path) -> Tally:
     """Run a shard; one that dies is run again, with every input written down before it is tried."""
     command = [
         *(sys.executable, "-X", "faulthandler", "-m", "tools.attack.shard", part.suite),
-        *(str(part.number), str(part.size), "--seed", args.seed, *(["--short"] if args.short else [])),
+        *(
+            str(part.number),
+            str(part.size),
+            "--seed",
+            args.seed,
+            *(["--short"] if args.short else []),
+        ),
         *("--findings", str(findings)),
     ]
     try:
-        process = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False, timeout=SHARD_SECONDS)
+        process = subprocess.run(
+            command, cwd=ROOT, capture_output=True, text=True, check=False, timeout=SHARD_SECONDS
+        )
         if process.returncode == 0:
             return Tally(**json.loads(process.stdout.splitlines()[-1]))
         careful = [*command[:-1], str(findings / part.name), "--careful"]

@@ -44,7 +44,8 @@ from tools.vectors.meshes import patch, torus
 
 HUGE_WORDS = (b"2147483647", b"999999999999999999", b"9" * 400, b"-1", b"1e300")
 HUGE_BYTES = tuple(
-    bytes.fromhex(code) for code in ("ff", "ffff", "ffffff7f", "7fffffff", "ffffffff", "ffffffffffffff7f")
+    bytes.fromhex(code)
+    for code in ("ff", "ffff", "ffffff7f", "7fffffff", "ffffffff", "ffffffffffffff7f")
 )
 _NUMBER = re.compile(rb"(?<![\w.+-])-?\d+(?:\.\d+)?(?:[eE][+-]?\d+)?(?![\w.])")
 MOST_SECONDS = 60
@@ -115,11 +116,15 @@ class Scene(Built):
 def _ragged_ply() -> bytes:
     """Polygons of three and of four corners, whose rows differ in length."""
     points = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], "<f4").tobytes()
-    faces = b"\3" + np.array([0, 1, 2], "<i4").tobytes() + b"\4" + np.arange(4, dtype="<i4").tobytes()
+    faces = (
+        b"\3" + np.array([0, 1, 2], "<i4").tobytes() + b"\4" + np.arange(4, dtype="<i4").tobytes()
+    )
     return ply_head(4, 2, "binary_little_endian").encode() + points + faces
 
 
-_FACET = b"facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n"
+_FACET = (
+    b"facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n"
+)
 _PVD = b"""<VTKFile type="Collection"><Collection>
 <DataSet timestep="0" part="0" file="a.obj"/><DataSet timestep="1.5" part="0" file="b.obj"/>
 </Collection></VTKFile>"""
@@ -182,7 +187,9 @@ def samples() -> dict[str, Sample]:
     painted = ply_head(more="property uchar red\nproperty uchar green\nproperty uchar blue\n")
     samples_by_name = {
         **{kind: Sample(kind, written_mesh(mesh, kind).data) for kind in (*MESH_FORMATS, "glb")},
-        "ply of text": Sample("ply", (painted + "0 0 0 1 2 3\n1 0 0 1 2 3\n0 1 0 1 2 3\n3 0 1 2\n").encode()),
+        "ply of text": Sample(
+            "ply", (painted + "0 0 0 1 2 3\n1 0 0 1 2 3\n0 1 0 1 2 3\n3 0 1 2\n").encode()
+        ),
         "ply of polygons": Sample("ply", _ragged_ply()),
         "stl of text": Sample("stl", _ASCII_STL),
         "obj.gz": Sample("obj.gz", gzip.compress(plain, mtime=0)),
@@ -279,25 +286,45 @@ def grown(size: int) -> dict[str, Callable[[], Sample]]:
     }.items():
         makers[f"obj, {what}"] = partial(_numbered, "obj", triangle, numbered, size, b"f 1 2 3\n")
     makers["obj, corners of one face"] = partial(_text, "obj", triangle + b"f", b" 1", size, b"\n")
-    makers["obj, numbers of corners"] = partial(_text, "obj", triangle + b"vt 0\nvn 0 0 1\nf", b" 1/1/1", size, b"\n")
+    makers["obj, numbers of corners"] = partial(
+        _text, "obj", triangle + b"vt 0\nvn 0 0 1\nf", b" 1/1/1", size, b"\n"
+    )
     makers["obj, slashes"] = partial(_text, "obj", triangle + b"f 1", b"/", size, b"\n")
     makers["obj, numbers of a point"] = partial(_text, "obj", b"v", b" 0", size, b"\nf 1 1 1\n")
     makers["obj, one number"] = partial(_text, "obj", b"v 0 0 ", b"1", size, b"\nf 1 1 1\n")
     count = size // 6
-    makers["off, points"] = partial(_text, "off", f"OFF {count} 1\n".encode(), b"0 0 0\n", 6 * count, b"3 0 1 2\n")
-    makers["off, faces"] = partial(_text, "off", f"OFF 1 {size // 8}\n0 0 0\n".encode(), b"3 0 0 0\n", size)
-    makers["off, empty faces"] = partial(_text, "off", f"OFF 1 {size // 2}\n0 0 0\n".encode(), b"0\n", size)
-    makers["off, one face"] = partial(_text, "off", f"OFF 1 1\n0 0 0\n{size // 2}".encode(), b" 0", size, b"\n")
-    makers["off, comments"] = partial(_text, "off", b"", b"# meta a: 1\n", size, b"OFF 1 1\n0 0 0\n3 0 0 0\n")
+    makers["off, points"] = partial(
+        _text, "off", f"OFF {count} 1\n".encode(), b"0 0 0\n", 6 * count, b"3 0 1 2\n"
+    )
+    makers["off, faces"] = partial(
+        _text, "off", f"OFF 1 {size // 8}\n0 0 0\n".encode(), b"3 0 0 0\n", size
+    )
+    makers["off, empty faces"] = partial(
+        _text, "off", f"OFF 1 {size // 2}\n0 0 0\n".encode(), b"0\n", size
+    )
+    makers["off, one face"] = partial(
+        _text, "off", f"OFF 1 1\n0 0 0\n{size // 2}".encode(), b" 0", size, b"\n"
+    )
+    makers["off, comments"] = partial(
+        _text, "off", b"", b"# meta a: 1\n", size, b"OFF 1 1\n0 0 0\n3 0 0 0\n"
+    )
     makers["off, keywords"] = partial(_text, "off", b"", b"ST", size, b"OFF 1 1\n0 0 0\n3 0 0 0\n")
     makers["off, spaces"] = partial(_text, "off", b"OFF", b"\n", size, b"x")
     makers["stl, triangles"] = lambda: Sample(
         "stl", bytes(80) + struct.pack("<I", size // 50) + bytes(50 * (size // 50))
     )
-    makers["stl of text, lines"] = partial(_text, "stl", b"solid\n", b"vertex 0 0 0\n", size, b"endsolid")
+    makers["stl of text, lines"] = partial(
+        _text, "stl", b"solid\n", b"vertex 0 0 0\n", size, b"endsolid"
+    )
     makers["stl of text, facets"] = partial(_text, "stl", b"solid\n", _FACET, size, b"endsolid")
     makers["stl of text, spaces"] = partial(_text, "stl", b"solid\n", b" ", size, b"endsolid")
-    makers |= _grown_ply(size) | _grown_archives(size) | _grown_gltf(size) | _grown_caches(size) | _grown_3mf(size)
+    makers |= (
+        _grown_ply(size)
+        | _grown_archives(size)
+        | _grown_gltf(size)
+        | _grown_caches(size)
+        | _grown_3mf(size)
+    )
     if "usda" in samples():
         makers |= _grown_usd(size)
     return makers
@@ -329,7 +356,9 @@ def _grown_ply(size: int) -> dict[str, Callable[[], Sample]]:
     def polygons(corners: int) -> Sample:
         row = bytes([corners, *(number % 3 for number in range(corners))])
         count = size // len(row)
-        return ply(chars(3, count, corners="uchar uchar"), bytes((0, 0, 0, 1, 0, 0, 0, 1, 0)) + row * count)
+        return ply(
+            chars(3, count, corners="uchar uchar"), bytes((0, 0, 0, 1, 0, 0, 0, 1, 0)) + row * count
+        )
 
     def more(lines: str) -> Sample:
         return ply(chars(1, more=lines), bytes(16))
@@ -381,7 +410,9 @@ def _grown_archives(size: int) -> dict[str, Callable[[], Sample]]:
     def claimed(shape: tuple[int, ...], kind: str = "<f8") -> bytes:
         """An array that ends behind its header."""
         file = io.BytesIO()
-        np.lib.format.write_array_header_1_0(file, {"descr": kind, "fortran_order": False, "shape": shape})
+        np.lib.format.write_array_header_1_0(
+            file, {"descr": kind, "fortran_order": False, "shape": shape}
+        )
         return file.getvalue()
 
     def npz(**arrays: Any) -> Sample:
@@ -389,7 +420,9 @@ def _grown_archives(size: int) -> dict[str, Callable[[], Sample]]:
 
     def entries() -> Sample:
         stored = {f"{number}": np.zeros(1, np.int8) for number in range(size // 250)}
-        return Sample("npz", _archive({"positions": point, "faces": faces, **stored}, zipfile.ZIP_STORED))
+        return Sample(
+            "npz", _archive({"positions": point, "faces": faces, **stored}, zipfile.ZIP_STORED)
+        )
 
     def pipe(shape: tuple[int, ...]) -> Sample:
         file = io.BytesIO()
@@ -402,16 +435,26 @@ def _grown_archives(size: int) -> dict[str, Callable[[], Sample]]:
         "npz, faces": lambda: npz(positions=point, faces=np.zeros((many // 3, 3), np.int8)),
         "npz, other": lambda: npz(positions=point, faces=faces, metadata=np.zeros(many, np.uint8)),
         "npz, values": lambda: npz(positions=point, faces=faces, a=np.zeros((1, many), np.uint8)),
-        "npz, of corners": lambda: npz(positions=point, faces=faces, **{"corner/a": np.zeros((many, 1), np.uint8)}),
+        "npz, of corners": lambda: npz(
+            positions=point, faces=faces, **{"corner/a": np.zeros((many, 1), np.uint8)}
+        ),
         "npz, text": lambda: npz(
-            positions=point, faces=faces, metadata=np.frombuffer(b'{"a":' + b"[" * size + b"}", np.uint8)
+            positions=point,
+            faces=faces,
+            metadata=np.frombuffer(b'{"a":' + b"[" * size + b"}", np.uint8),
         ),
         "npz, entries": entries,
         "npz, claims": lambda: npz(positions=claimed((1 << 24, 3)), faces=faces),
         "npz, claims of nothing": lambda: npz(positions=claimed((0, 1 << 62)), faces=faces),
-        "npz of frames, one frame": lambda: npz(positions=np.zeros((1, many // 3, 3), np.int8), faces=faces),
-        "npz of frames, frames": lambda: npz(positions=np.zeros((many // 9, 3, 3), np.int8), faces=faces),
-        "npz of frames, no vertices": lambda: npz(positions=np.zeros((1 << 40, 0, 3), np.int8), faces=faces),
+        "npz of frames, one frame": lambda: npz(
+            positions=np.zeros((1, many // 3, 3), np.int8), faces=faces
+        ),
+        "npz of frames, frames": lambda: npz(
+            positions=np.zeros((many // 9, 3, 3), np.int8), faces=faces
+        ),
+        "npz of frames, no vertices": lambda: npz(
+            positions=np.zeros((1 << 40, 0, 3), np.int8), faces=faces
+        ),
         "npz of frames, faces": lambda: npz(
             positions=np.zeros((2, 1, 3), np.int8), faces=np.zeros((many // 3, 3), np.int8)
         ),
@@ -419,13 +462,21 @@ def _grown_archives(size: int) -> dict[str, Callable[[], Sample]]:
         "npy, a frame": partial(pipe, (1 << 40, 3)),
         "npy, frames of nothing": partial(pipe, (0, 3)),
         "npy, of large nothing": partial(pipe, (0, 1 << 62)),
-        "gz, of lines": lambda: Sample("obj.gz", gzip.compress(plain * (many // 8) + b"f 1 1 2\n", mtime=0)),
+        "gz, of lines": lambda: Sample(
+            "obj.gz", gzip.compress(plain * (many // 8) + b"f 1 1 2\n", mtime=0)
+        ),
         "gz, of points": lambda: Sample("obj.gz", gzip.compress(plain * (many // 8), mtime=0)),
         "gz, members": lambda: Sample("obj.gz", gzip.compress(plain, mtime=0) * (size // 30)),
-        "gz, members of nothing": lambda: Sample("obj.gz", gzip.compress(b"", mtime=0) * (size // 20)),
-        "gz of gz": lambda: Sample("obj.gz", gzip.compress(gzip.compress(plain * (many // 8), mtime=0), mtime=0)),
+        "gz, members of nothing": lambda: Sample(
+            "obj.gz", gzip.compress(b"", mtime=0) * (size // 20)
+        ),
+        "gz of gz": lambda: Sample(
+            "obj.gz", gzip.compress(gzip.compress(plain * (many // 8), mtime=0), mtime=0)
+        ),
         "zip of meshes": lambda: Sample("zip", _zip({"a.obj": plain * (many // 8) + b"f 1 1 1\n"})),
-        "3mf": lambda: Sample("3mf", _zip({"3D/3dmodel.model": b"<model>" + b"<a/>" * (many // 4) + b"</model>"})),
+        "3mf": lambda: Sample(
+            "3mf", _zip({"3D/3dmodel.model": b"<model>" + b"<a/>" * (many // 4) + b"</model>"})
+        ),
     }
 
 
@@ -455,16 +506,27 @@ def three_mf(resources: str, items: str, parts: Mapping[str, str] = MappingProxy
             f"<resources>{resources}</resources><build>{items}</build></model>"
         )
         return re.sub(
-            r'(id|index)="(\d+)"', lambda match: f'{match[1]}="{int(match[2]) + (match[1] == "id")}"', text
+            r'(id|index)="(\d+)"',
+            lambda match: f'{match[1]}="{int(match[2]) + (match[1] == "id")}"',
+            text,
         ).encode()
 
     def related(names: list[str]) -> bytes:
-        links = (f'<Relationship Target="/{n}" Id="r{i}" Type="{core}/2013/01/3dmodel"/>' for i, n in enumerate(names))
+        links = (
+            f'<Relationship Target="/{n}" Id="r{i}" Type="{core}/2013/01/3dmodel"/>'
+            for i, n in enumerate(names)
+        )
         return f'<Relationships xmlns="{place}/relationships">{"".join(links)}</Relationships>'.encode()
 
     place, main = "http://schemas.openxmlformats.org/package/2006", "3D/3dmodel.model"
-    kinds = {"model": "ms-package.3dmanufacturing-3dmodel", "rels": "openxmlformats-package.relationships"}
-    types = (f'<Default Extension="{end}" ContentType="application/vnd.{k}+xml"/>' for end, k in kinds.items())
+    kinds = {
+        "model": "ms-package.3dmanufacturing-3dmodel",
+        "rels": "openxmlformats-package.relationships",
+    }
+    types = (
+        f'<Default Extension="{end}" ContentType="application/vnd.{k}+xml"/>'
+        for end, k in kinds.items()
+    )
     others = {f"3D/Objects/{name}.model": model(text, "") for name, text in parts.items()}
     return _zip(
         {
@@ -507,7 +569,9 @@ def _grown_caches(size: int) -> dict[str, Callable[[], Sample]]:
 
     return {
         "pc2, frames": lambda: Sample(
-            "pc2", struct.pack("<12siiffi", b"POINTCACHE2\0", 1, 1, 0, 1, size // 12) + bytes(size), (mesh,)
+            "pc2",
+            struct.pack("<12siiffi", b"POINTCACHE2\0", 1, 1, 0, 1, size // 12) + bytes(size),
+            (mesh,),
         ),
         "mdd, frames": lambda: mdd(struct.pack(">ii", frames, 1) + bytes(16 * frames)),
         "mdd, times": lambda: mdd(struct.pack(">ii", size // 4, 1) + bytes(size)),
@@ -517,7 +581,12 @@ def _grown_caches(size: int) -> dict[str, Callable[[], Sample]]:
             (
                 (
                     "a.npz",
-                    _archive({"positions": np.zeros((40 * size // 3, 3), np.int8), "faces": np.zeros((1, 3), int)}),
+                    _archive(
+                        {
+                            "positions": np.zeros((40 * size // 3, 3), np.int8),
+                            "faces": np.zeros((1, 3), int),
+                        }
+                    ),
                 ),
             ),
         ),
@@ -531,7 +600,8 @@ def _grown_gltf(size: int) -> dict[str, Callable[[], Sample]]:
         """An accessor without a view: all of it is zeros."""
         return lambda t: t["accessors"].__setitem__(
             place,
-            {key: value for key, value in t["accessors"][place].items() if key != "bufferView"} | {"count": count},
+            {key: value for key, value in t["accessors"][place].items() if key != "bufferView"}
+            | {"count": count},
         )
 
     def nodes(t: Tree, entries: list[dict[str, Any]]) -> None:
@@ -548,7 +618,10 @@ def _grown_gltf(size: int) -> dict[str, Callable[[], Sample]]:
         t["animations"][0] = {
             "samplers": [{"input": 2, "output": 3}] * (count if samplers else 1),
             "channels": [
-                {"sampler": node if samplers else 0, "target": {"node": node, "path": "translation"}}
+                {
+                    "sampler": node if samplers else 0,
+                    "target": {"node": node, "path": "translation"},
+                }
                 for node in range(count)
             ],
         }
@@ -583,15 +656,25 @@ def _grown_gltf(size: int) -> dict[str, Callable[[], Sample]]:
         "accessors of no bytes": unused,
         "targets": targets,
     }
-    moving: dict[str, Change] = {"curves of no bytes": channels, "samplers": partial(channels, samplers=True)}
+    moving: dict[str, Change] = {
+        "curves of no bytes": channels,
+        "samplers": partial(channels, samplers=True),
+    }
     entries = {
-        f"glb, {name}": partial(make_sample, change, None) for name, change in (both | {"sparse": sparse}).items()
+        f"glb, {name}": partial(make_sample, change, None)
+        for name, change in (both | {"sparse": sparse}).items()
     }
-    entries |= {f"moving glb, {name}": partial(make_sample, change, 1.0) for name, change in (both | moving).items()}
     entries |= {
-        f"long glb, {name}": partial(make_sample, both[name], 30_000.0) for name in ("nodes of nothing", "targets")
+        f"moving glb, {name}": partial(make_sample, change, 1.0)
+        for name, change in (both | moving).items()
     }
-    return entries | {"glb, nested": lambda: Sample("gltf", b'{"asset":{"version":"2.0"},"a":' + b"[" * size)}
+    entries |= {
+        f"long glb, {name}": partial(make_sample, both[name], 30_000.0)
+        for name in ("nodes of nothing", "targets")
+    }
+    return entries | {
+        "glb, nested": lambda: Sample("gltf", b'{"asset":{"version":"2.0"},"a":' + b"[" * size)
+    }
 
 
 def _grown_usd(size: int) -> dict[str, Callable[[], Sample]]:
@@ -603,15 +686,26 @@ def _grown_usd(size: int) -> dict[str, Callable[[], Sample]]:
         return Sample("usda", head + b'def Mesh "a"\n{\n' + inside + tail)
 
     def many(begun: bytes, entry: bytes, count: int, tail: bytes = b"") -> Sample:
-        return Sample("usda", head + begun + b"".join(entry.replace(b"#", b"%d" % n) for n in range(count)) + tail)
+        return Sample(
+            "usda",
+            head + begun + b"".join(entry.replace(b"#", b"%d" % n) for n in range(count)) + tail,
+        )
 
     begun, samples = b'def Mesh "a"\n{\n' + mesh, b"point3f[] points.timeSamples = {\n"
     return {
-        "usd, faces": lambda: stage(b"int[] faceVertexCounts = [" + b"0," * (size // 2) + b"0]\n" + points),
-        "usd, points": lambda: stage(mesh + b"point3f[] points = [" + b"(0,0,0)," * (size // 8) + b"(0,0,0)]\n"),
-        "usd, samples": lambda: many(begun + samples, b"#: [(0,0,0),(1,0,0),(0,1,0)],\n", size // 36, b"}\n" + tail),
+        "usd, faces": lambda: stage(
+            b"int[] faceVertexCounts = [" + b"0," * (size // 2) + b"0]\n" + points
+        ),
+        "usd, points": lambda: stage(
+            mesh + b"point3f[] points = [" + b"(0,0,0)," * (size // 8) + b"(0,0,0)]\n"
+        ),
+        "usd, samples": lambda: many(
+            begun + samples, b"#: [(0,0,0),(1,0,0),(0,1,0)],\n", size // 36, b"}\n" + tail
+        ),
         "usd, prims": lambda: many(b"", b'def Mesh "a#" {\n' + mesh + points + b"}\n", size // 150),
-        "usd, nested": lambda: Sample("usda", head + b'def "a" {\n' * (size // 10) + b"}\n" * (size // 10)),
+        "usd, nested": lambda: Sample(
+            "usda", head + b'def "a" {\n' * (size // 10) + b"}\n" * (size // 10)
+        ),
     }
 
 
@@ -624,7 +718,9 @@ def read_all(path: Path, limits: Limits) -> Taken:
     try:
         if kind in SEQUENCES_READ:
             try:
-                sequence = open_sequence(str(path), "npy" if kind == "npy" else None, request=Wanted(), limits=limits)
+                sequence = open_sequence(
+                    str(path), "npy" if kind == "npy" else None, request=Wanted(), limits=limits
+                )
                 if sequence is not None:
                     for frame in sequence.frames:
                         vertices = len(frame)
@@ -643,7 +739,9 @@ def problems(cases: list[Case], limits: str, most: float = 1.0) -> Iterator[str]
     """Where reading takes more than `most` of what it may, or what comes out is neither a mesh nor an error of ours."""
     with tempfile.TemporaryDirectory() as folder:
         cases = [case for case in cases if limits == "service" or is_ours(case.name)]
-        works = [partial(reading, case.make, Path(folder), NAMED_LIMITS[limits]()) for case in cases]
+        works = [
+            partial(reading, case.make, Path(folder), NAMED_LIMITS[limits]()) for case in cases
+        ]
         yield from problems_of([case.name for case in cases], works, limits, most, MOST_SECONDS)
 
 
@@ -695,10 +793,16 @@ def warm_up() -> None:
 def main() -> int:
     """Run the command."""
     parser = parser_of(__doc__)
-    parser.add_argument("--bytes", type=int, default=1 << 20, help="of a file that is grown (default: %(default)s)")
-    parser.add_argument("--every", type=int, default=1, metavar="N", help="of the numbers take one in N")
+    parser.add_argument(
+        "--bytes", type=int, default=1 << 20, help="of a file that is grown (default: %(default)s)"
+    )
+    parser.add_argument(
+        "--every", type=int, default=1, metavar="N", help="of the numbers take one in N"
+    )
     parser.add_argument("--only", default="", metavar="TEXT", help="cases whose name begins so")
-    parser.add_argument("--limits", choices=("default", "service"), nargs="+", default=("default", "service"))
+    parser.add_argument(
+        "--limits", choices=("default", "service"), nargs="+", default=("default", "service")
+    )
     parser.add_argument("--list", action="store_true", help="only say what there is")
     args = parser.parse_args()
     warm_up()
@@ -708,4 +812,7 @@ def main() -> int:
         print("\n".join(case.name for case in cases))
         return 0
     findings = chain.from_iterable(problems(cases, limits) for limits in args.limits)
-    return report(findings, f"{len(cases)} files of {len(samples())} kinds, {len(args.limits) * len(cases)} readings")
+    return report(
+        findings,
+        f"{len(cases)} files of {len(samples())} kinds, {len(args.limits) * len(cases)} readings",
+    )

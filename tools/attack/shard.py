@@ -79,7 +79,9 @@ class Shard:
 
     def seeds(self) -> list[bytes]:
         """The vectors, and a few streams that are like none of them."""
-        fresh = [self.fresh() for _ in range(FRESH)] + [unencoded_stream(self.random) for _ in range(FRESH)]
+        fresh = [self.fresh() for _ in range(FRESH)] + [
+            unencoded_stream(self.random) for _ in range(FRESH)
+        ]
         return vector_seeds() + [stream for stream in fresh if stream]
 
     def fresh(self) -> bytes | None:
@@ -104,7 +106,9 @@ def mutants(shard: Shard, number: int, size: int) -> None:
             if way < 0.6:
                 outcome = whole(stream, LIMITS)
             else:
-                outcome, _ = piecewise(stream, shard.random, LIMITS, threads=1 + (way < 0.7), tolerant=way > 0.8)
+                outcome, _ = piecewise(
+                    stream, shard.random, LIMITS, threads=1 + (way < 0.7), tolerant=way > 0.8
+                )
             shard.tally.saw(outcome)
             shard.found(stream, not_finite(outcome, tolerant=way > 0.8))
 
@@ -142,11 +146,17 @@ def differential(shard: Shard, number: int, size: int) -> None:
             continue
         released = by_release(stream)
         # Release 1.0 does not know the header fields of later versions, and refuses them before anything else.
-        if isinstance(released, errors.UnsupportedError) and re.search(r"field \d+ is unknown", str(released)):
+        if isinstance(released, errors.UnsupportedError) and re.search(
+            r"field \d+ is unknown", str(released)
+        ):
             shard.tally.skipped += 1
             continue
         # Release 1.0 compared rows of attributes with the mesh only after later sections.
-        if isinstance(ours, BsmError) and isinstance(released, BsmError) and "values where" in f"{ours}{released}":
+        if (
+            isinstance(ours, BsmError)
+            and isinstance(released, BsmError)
+            and "values where" in f"{ours}{released}"
+        ):
             shard.tally.skipped += 1
             continue
         shard.tally.saw(ours)
@@ -169,7 +179,9 @@ def _elsewhere(shard: Shard, size: int, places: tuple[Place, ...]) -> None:
         streams = _streams(shard, seed, size, Path(folder))
         for number, place in enumerate(places):
             there = Path(folder) / str(number)
-            process = place.run("tools.attack.encodes", seed, str(size), str(there), "--streams", folder)
+            process = place.run(
+                "tools.attack.encodes", seed, str(size), str(there), "--streams", folder
+            )
             if process.returncode:
                 shard.tally.escapes += 1
                 shard.tally.findings.append(
@@ -183,8 +195,12 @@ def _elsewhere(shard: Shard, size: int, places: tuple[Place, ...]) -> None:
                 if other_stream != stream:
                     # An encoder may choose otherwise there; what it writes must mean the same everywhere.
                     shard.tally.otherwise += 1
-                    difference = shard.tally.hold(other_stream, whole(other_stream), by_release(other_stream))
-                    shard.found(other_stream, difference and f"encoded by {place.name}: {difference}")
+                    difference = shard.tally.hold(
+                        other_stream, whole(other_stream), by_release(other_stream)
+                    )
+                    shard.found(
+                        other_stream, difference and f"encoded by {place.name}: {difference}"
+                    )
 
 
 def _streams(shard: Shard, seed: str, size: int, folder: Path) -> dict[int, bytes]:
@@ -227,7 +243,9 @@ def agree(shard: Shard, stream: bytes, outcome: Outcome) -> None:
         tolerant, losses = piecewise(stream, shard.random, tolerant=True)
         shard.found(
             stream,
-            shard.tally.hold(stream, tolerant, mesh, exact=True) or (losses and "losses in a whole stream") or None,
+            shard.tally.hold(stream, tolerant, mesh, exact=True)
+            or (losses and "losses in a whole stream")
+            or None,
         )
 
 
@@ -259,7 +277,9 @@ def main() -> None:
     parser.add_argument("--careful", action="store_true")
     parser.add_argument("--short", action="store_true")
     args = parser.parse_args()
-    shard = Shard(f"{args.seed}/{args.suite}/{args.number}", args.findings, args.careful, args.short)
+    shard = Shard(
+        f"{args.seed}/{args.suite}/{args.number}", args.findings, args.careful, args.short
+    )
     SUITES[args.suite](shard, args.number, args.size)
     print(json.dumps(asdict(shard.tally)))
 

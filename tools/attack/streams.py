@@ -13,7 +13,15 @@ from bsm.bitstream.coefficients.packed import pack_coefficients
 from bsm.bitstream.connectivity.faces import EncodedConnectivity, encode_connectivity
 from bsm.bitstream.container import packets
 from bsm.bitstream.container.gop import METHODS, RUNS, GopBody, GopField, GopMethod, write_gop_body
-from bsm.bitstream.container.header import AS_CODED, FACE, HEADER_FIELDS, OCTAHEDRAL, OTHERWISE, RECOMPUTED, Declaration
+from bsm.bitstream.container.header import (
+    AS_CODED,
+    FACE,
+    HEADER_FIELDS,
+    OCTAHEDRAL,
+    OTHERWISE,
+    RECOMPUTED,
+    Declaration,
+)
 from bsm.bitstream.container.packets import WRITERS
 from bsm.bitstream.container.wire import FrameType, write_frame, write_map, write_varint
 from bsm.codec.blocks.overlap import partition_of_labels
@@ -25,7 +33,15 @@ from bsm.codec.static.ways.grid import levels_field
 from bsm.codec.static.ways.in_cells import Spread
 from tools.gridded import gridded
 from tools.payloads import still_levels
-from tools.surgery import Frames, first_entries, frames_of, header_entries, header_frame, stream_of, with_header
+from tools.surgery import (
+    Frames,
+    first_entries,
+    frames_of,
+    header_entries,
+    header_frame,
+    stream_of,
+    with_header,
+)
 from tools.vectors.good_base import based
 from tools.vectors.meshes import torus
 
@@ -155,7 +171,9 @@ def _grid(shape: tuple[Any, ...], chunk: int, **fields: Any) -> bytes:
     coded = _coded(*shape)
     size = len(coded.vertex_order)
     counts = [min(chunk, size - first) for first in range(0, size, chunk)]
-    return stream_of(gridded(coded, np.zeros((size, 3), np.int32), counts, **{"grid": (1, 1, 1)} | fields))
+    return stream_of(
+        gridded(coded, np.zeros((size, 3), np.int32), counts, **{"grid": (1, 1, 1)} | fields)
+    )
 
 
 STAYING = np.array([[48, 0, *[1 << 3] * 3, *[12] * 3]] * 16, np.int32)
@@ -170,7 +188,9 @@ def _apart(shape: tuple[Any, ...], side: int) -> bytes:
     coded, largest = _coded(*shape), (16 * side,) * 3
     size, numbers = len(coded.vertex_order), np.random.default_rng(1)
     values = 16 * numbers.integers(0, side, (size, 3)) + numbers.integers(2, 15, (size, 3))
-    values[size // 2 :] = [32, 16, 16] * (numbers.integers(side // 4, side // 2, (size - size // 2, 3)) // [2, 1, 1])
+    values[size // 2 :] = [32, 16, 16] * (
+        numbers.integers(side // 4, side // 2, (size - size // 2, 3)) // [2, 1, 1]
+    )
     shifts = [[32 * (place % 4) + 16, 16 * (place // 4), 0] for place in range(16)]
     rows = np.zeros((16, 8), np.int32)
     rows[:, 5:] = np.array(shifts) + largest
@@ -184,7 +204,13 @@ def _layers(rows: int, columns: int, chunk: int) -> bytes:
     blocks = -(-size // 4000)
     frames: Frames = [
         _header(
-            coded, **PACKED, blocks=blocks, block_size=min(size, 8000), coefficients=1, power=1, refinement=(1.0, 1.0)
+            coded,
+            **PACKED,
+            blocks=blocks,
+            block_size=min(size, 8000),
+            coefficients=1,
+            power=1,
+            refinement=(1.0, 1.0),
         ),
         _faces(coded),
         *_blocks(blocks, 1),
@@ -210,7 +236,9 @@ def _copies(rows: int, columns: int, count: int) -> bytes:
     faces = _heap(rows, columns, count)
     places = np.append(np.arange(size, dtype=np.int32), faces[-count:, 0])
     faces[-count:, 0] = size + np.arange(count)
-    return _blocky(shape, _order(faces, places), blocks=size // 4, block_size=min(size, 64), power=1)
+    return _blocky(
+        shape, _order(faces, places), blocks=size // 4, block_size=min(size, 64), power=1
+    )
 
 
 def _order(faces: Faces, places: npt.NDArray[np.int32]) -> tuple[int, bytes]:
@@ -221,7 +249,9 @@ def _order(faces: Faces, places: npt.NDArray[np.int32]) -> tuple[int, bytes]:
     return FrameType.ORDER, mesh.order(np.zeros((len(places), 3)))
 
 
-def _sequence(rows: int, columns: int, gops: Iterable[GopBody], *, width: int, part: int = 400, **fields: Any) -> bytes:
+def _sequence(
+    rows: int, columns: int, gops: Iterable[GopBody], *, width: int, part: int = 400, **fields: Any
+) -> bytes:
     coded = _coded("torus", rows, columns)
     size = len(coded.vertex_order)
     blocks = max(1, size // part)
@@ -242,17 +272,23 @@ def _sequence(rows: int, columns: int, gops: Iterable[GopBody], *, width: int, p
     return stream_of(frames)
 
 
-def _joined(streams: Iterable[bytes], agains: Iterable[int] = (), gop: GopBody | None = None) -> bytes:
+def _joined(
+    streams: Iterable[bytes], agains: Iterable[int] = (), gop: GopBody | None = None
+) -> bytes:
     """Sequences of one frame each as the runs of one, and behind them runs that have the meshes of some again."""
     frames: Frames = []
     run = 0
     for stream in streams:
         for kind, payload in frames_of(stream):
             if kind == FrameType.HEADER:
-                entries = header_entries(payload) | ({HEADER_FIELDS["run"].key: [run]} if run else {})
+                entries = header_entries(payload) | (
+                    {HEADER_FIELDS["run"].key: [run]} if run else {}
+                )
                 payload = write_map(sorted(entries.items()))
             if kind == FrameType.GOP:
-                payload = write_varint(run) + bytes([payload[1] + METHODS * (run % RUNS)]) + payload[2:]
+                payload = (
+                    write_varint(run) + bytes([payload[1] + METHODS * (run % RUNS)]) + payload[2:]
+                )
             frames.append((kind, payload))
         run += 1
     meshes = [header_entries(payload) for kind, payload in frames if kind == FrameType.HEADER]
@@ -273,7 +309,9 @@ def _still(rows: int, columns: int, part: int = 400) -> bytes:
 def _learnt_gop(frames: int, components: int, levels: bytes = b"", attributes: int = 0) -> GopBody:
     """A GOP whose temporal bases are nothing but zeros, which take next to no bytes; optionally with attributes."""
     exponents = np.zeros(components, np.int32)
-    fields = [GopField(width, 1.0, components, exponents, still_levels(width), levels) for width in (3, 4)]
+    fields = [
+        GopField(width, 1.0, components, exponents, still_levels(width), levels) for width in (3, 4)
+    ]
     return GopBody(GopMethod.LEARNT, frames, (fields[0], *fields[1:] * attributes))
 
 
@@ -330,18 +368,33 @@ def _long_metadata(entries: int, length: int) -> bytes:
     payload = write_map([(f"{number:0250}", "x" * length) for number in range(entries)])
     coded = _coded("torus", 12, 12)
     blocks = {**PACKED, "blocks": 1, "block_size": 144, "coefficients": 1}
-    return stream_of([_header(coded, **blocks), (FrameType.METADATA, payload), _faces(coded), *_blocks(1, 1)])
+    return stream_of(
+        [_header(coded, **blocks), (FrameType.METADATA, payload), _faces(coded), *_blocks(1, 1)]
+    )
 
 
 def _valued(
-    rows: int, columns: int, count: int, chunk: int, *, coded: int | None = None, swift: int = 0, **fields: Any
+    rows: int,
+    columns: int,
+    count: int,
+    chunk: int,
+    *,
+    coded: int | None = None,
+    swift: int = 0,
+    **fields: Any,
 ) -> bytes:
     """Return a mesh with a number of equal, empty attributes."""
-    blocks = {"blocks": 1 + rows * columns // 4000, "block_size": min(rows * columns, 8000), "power": 1}
+    blocks = {
+        "blocks": 1 + rows * columns // 4000,
+        "block_size": min(rows * columns, 8000),
+        "power": 1,
+    }
     frames = frames_of(_blocky(("torus", rows, columns), attributes=count, swift=swift, **blocks))
     size = rows * columns if coded is None else coded
     fields_of_values = {"origin": OTHERWISE, **fields}
-    declared, chunks = _attributes(rows, columns, count, chunk, size, swift=swift, **fields_of_values)
+    declared, chunks = _attributes(
+        rows, columns, count, chunk, size, swift=swift, **fields_of_values
+    )
     return stream_of([*frames[:2], *declared, *frames[2:], *chunks])
 
 
@@ -365,13 +418,29 @@ def _attributes(
         encoder = field_of(declaration, surface, levels, None, swift)
         for first in range(0, size, chunk):
             rows_of_chunk = min(chunk, size - first)
-            chunks.append(_written(packets.Values(index, first, rows_of_chunk, write_values(encoder, rows_of_chunk))))
+            chunks.append(
+                _written(
+                    packets.Values(
+                        index, first, rows_of_chunk, write_values(encoder, rows_of_chunk)
+                    )
+                )
+            )
     return declared, chunks
 
 
-def _moving(rows: int, columns: int, count: int, gops: Iterable[GopBody], *, part: int = 400, width: int = 10) -> bytes:
+def _moving(
+    rows: int,
+    columns: int,
+    count: int,
+    gops: Iterable[GopBody],
+    *,
+    part: int = 400,
+    width: int = 10,
+) -> bytes:
     """Return a sequence with a number of moving attributes of four doubles; GOPs code as many as they have fields."""
-    frames = frames_of(_sequence(rows, columns, (), width=width, part=part, power=1, attributes=count))
+    frames = frames_of(
+        _sequence(rows, columns, (), width=width, part=part, power=1, attributes=count)
+    )
     declared, chunks = _attributes(rows, columns, count, 1 << 15, rows * columns, moves=1)
     first = 0
     bodies: Frames = []
@@ -392,10 +461,16 @@ def _seamed(rows: int, columns: int, count: int) -> bytes:
     place.join(True, False)
     place.code()
     values, exact = np.arange(2, dtype=np.uint8)[:, None], Quality("exact")
-    seams = [(np.arange(faces.size, dtype=np.int32) == corner).reshape(-1, 3).astype(np.int32) for corner in range(3)]
+    seams = [
+        (np.arange(faces.size, dtype=np.int32) == corner).reshape(-1, 3).astype(np.int32)
+        for corner in range(3)
+    ]
     coded_attributes = [(Attribute("0", values, "corner", indices=at), exact) for at in seams]
     # Three in turn, of which each follows the other two.
-    turns = [carry(place, faces, coded_attributes[turn:] + coded_attributes[:turn], 0) for turn in range(3)]
+    turns = [
+        carry(place, faces, coded_attributes[turn:] + coded_attributes[:turn], 0)
+        for turn in range(3)
+    ]
     carried = [*turns[0], *(turns[(index + 1) % 3][2] for index in range(3, count))][:count]
     declared = [
         _written(packets.Declared(index, replace(one.declaration, name=f"{index}"), one.seams))
@@ -407,7 +482,11 @@ def _seamed(rows: int, columns: int, count: int) -> bytes:
 def _nested(kind: FrameType, size: int) -> bytes:
     """Return a map of `size` bytes, arrays in arrays, in place of a header, an attribute or metadata."""
     inside = b"\x91" * 400 + b"\x01"
-    payload = b"\x81\xcc\x80\xdd" + (size // len(inside)).to_bytes(4, "big") + inside * (size // len(inside))
+    payload = (
+        b"\x81\xcc\x80\xdd"
+        + (size // len(inside)).to_bytes(4, "big")
+        + inside * (size // len(inside))
+    )
     if kind == FrameType.HEADER:
         return stream_of([(kind, payload)])
     frames = frames_of(one_block(20, 20, 4))
@@ -415,7 +494,14 @@ def _nested(kind: FrameType, size: int) -> bytes:
         return stream_of([frames[0], (kind, payload), *frames[1:]])
     coded = _coded("torus", 20, 20)
     header = _header(coded, **PACKED, blocks=1, block_size=400, coefficients=4, attributes=1)
-    return stream_of([header, frames[1], (kind, write_varint(0) + write_varint(len(payload)) + payload), *frames[2:]])
+    return stream_of(
+        [
+            header,
+            frames[1],
+            (kind, write_varint(0) + write_varint(len(payload)) + payload),
+            *frames[2:],
+        ]
+    )
 
 
 def _written(packet: packets.Packet) -> tuple[int, bytes]:
@@ -444,7 +530,9 @@ def _worthless(rows: int, columns: int, count: int, size: int) -> bytes:
 
 
 def one_block(rows: int, columns: int, width: int, **fields: Any) -> bytes:
-    return _blocky(("torus", rows, columns), columns=width, blocks=1, block_size=rows * columns, **fields)
+    return _blocky(
+        ("torus", rows, columns), columns=width, blocks=1, block_size=rows * columns, **fields
+    )
 
 
 def ring(rows: int, columns: int) -> tuple[str, int, int]:
@@ -456,20 +544,25 @@ ONCE = {"power": 1, "key_iterations": 1}
 NOTHING = _learnt_gop(1, 0)
 BACK_AND_FORTH = np.arange(1024) % 2
 BOMBS: dict[str, Callable[[], bytes]] = {
-    "members": lambda: _tiny_blocks(ring(256, 256), 4096, declared_count=0),  # blocks that overlap as much as they may
+    # Blocks that overlap as much as they may.
+    "members": lambda: _tiny_blocks(ring(256, 256), 4096, declared_count=0),
     "members-illegal": lambda: _blocky(
         ring(256, 256), declared_count=0, blocks=65536, block_size=4096
     ),  # 65,536 blocks of 4,096
-    "narrow": lambda: one_block(91, 90, 1, power=64, key_iterations=1024),  # one column, power 64, 1,024 iterations
+    # One column, power 64, 1,024 iterations.
+    "narrow": lambda: one_block(91, 90, 1, power=64, key_iterations=1024),
     # The same in tiny blocks
     "narrow-small": lambda: _blocky(
         ring(36, 36), blocks=100, block_size=14, power=64, iterations=1024, key_iterations=1024
     ),
     "wide": lambda: one_block(64, 64, 4096, power=1),  # as many columns as rows
     "wide-exact": lambda: one_block(64, 64, 4096, exact=1),  # the same, exact
-    "wide-1024": lambda: one_block(64, 64, 1024, power=1, key_iterations=2),  # 1,024 columns, two iterations
+    # 1,024 columns, two iterations.
+    "wide-1024": lambda: one_block(64, 64, 1024, power=1, key_iterations=2),
     # Exact chains of one block each
-    "svd-keys": lambda: _blocky(ring(100, 100), columns=100, blocks=50, block_size=250, exact=1, key_interval=1),
+    "svd-keys": lambda: _blocky(
+        ring(100, 100), columns=100, blocks=50, block_size=250, exact=1, key_interval=1
+    ),
     # Columns that one solution loses
     "careful": lambda: one_block(40, 40, 400, power=64, shift=2.0 ** (-30), key_iterations=16),
     "tiny": lambda: _tiny_blocks(ring(64, 64), 4, **ONCE),  # blocks of one vertex
@@ -490,28 +583,39 @@ BOMBS: dict[str, Callable[[], bytes]] = {
     # The same with small blocks
     "hubs-small": lambda: _blocky(("wheels", 60, 2000), blocks=16, block_size=2060, **ONCE),
     # Smoothing where everything is near everything
-    "rings": lambda: _blocky(("wheels", 2, 20000), blocks=1600, block_size=200, smoothing=1.0, **ONCE),
-    "faces": lambda: _blocky(("repeated", 250000), blocks=1, block_size=4),  # a million faces of four vertices
-    "glued": lambda: _blocky(("glued", 999, 999), blocks=1, block_size=3),  # two million faces of three vertices
-    "pieces": lambda: _blocky(("pieces", 100000), blocks=2000, block_size=160, smoothing=1.0),  # triangles apart
+    "rings": lambda: _blocky(
+        ("wheels", 2, 20000), blocks=1600, block_size=200, smoothing=1.0, **ONCE
+    ),
+    # A million faces of four vertices.
+    "faces": lambda: _blocky(("repeated", 250000), blocks=1, block_size=4),
+    # Two million faces of three vertices.
+    "glued": lambda: _blocky(("glued", 999, 999), blocks=1, block_size=3),
+    # Triangles apart.
+    "pieces": lambda: _blocky(("pieces", 100000), blocks=2000, block_size=160, smoothing=1.0),
     "mesh": lambda: _blocky(
         ring(1024, 1024), declared_count=0, blocks=160, block_size=8192
     ),  # a million vertices and no block
     # A million vertices in large blocks
-    "mesh-blocks": lambda: _blocky(ring(1024, 1024), blocks=160, block_size=8192, power=2, columns=8),
+    "mesh-blocks": lambda: _blocky(
+        ring(1024, 1024), blocks=160, block_size=8192, power=2, columns=8
+    ),
     "copies": lambda: _copies(64, 64, 20_000),  # copies of one vertex in many blocks
     "grid": lambda: _grid(ring(1024, 1024), 1 << 15),  # a grid of a million vertices
     "grid-chunks": lambda: _grid(ring(100, 100), 1),  # a grid, vertex by vertex
-    "congruent": lambda: _grid(ring(1024, 1024), 1 << 15, transforms=STAYING),  # images of everything
+    # Images of everything.
+    "congruent": lambda: _grid(ring(1024, 1024), 1 << 15, transforms=STAYING),
     "congruent-apart": lambda: _apart(ring(400, 400), 25),  # images that are sought everywhere
     "congruent-chunks": lambda: _grid(ring(100, 100), 1, transforms=STAYING),
-    "light": lambda: _grid(ring(1024, 1024), 1 << 15, light=1),  # the small model on a million vertices
+    # The small model on a million vertices.
+    "light": lambda: _grid(ring(1024, 1024), 1 << 15, light=1),
     "light-chunks": lambda: _grid(ring(100, 100), 1, light=1),  # the same, vertex by vertex
-    "light-hubs": lambda: _grid(("wheels", 20, 4000), 1 << 15, light=1),  # hubs beside everything, by the small model
+    # Hubs beside everything, by the small model.
+    "light-hubs": lambda: _grid(("wheels", 20, 4000), 1 << 15, light=1),
     # Vertices with very many corners, by the small model
     "light-repeated": lambda: _grid(("repeated", 15000), 1, light=1),
     "layers": lambda: _layers(512, 512, 1 << 15),  # a layer
-    "cells": lambda: _cells(400, 400, 1),  # a layer on nearly as many cells as there may be, spread 64 times
+    # A layer on nearly as many cells as there may be, spread 64 times.
+    "cells": lambda: _cells(400, 400, 1),
     "cells-far": lambda: _cells(400, 400, 8),  # the same on few cells
     "layers-chunks": lambda: _layers(50, 50, 1),  # the same, vertex by vertex
     "metadata": lambda: _metadata(256),  # 256 names and 100,000 frames to skip
@@ -519,44 +623,67 @@ BOMBS: dict[str, Callable[[], bytes]] = {
     "values": lambda: _valued(60, 60, 75, 1 << 15),  # 75 attributes of four doubles
     "values-corners": lambda: _valued(500, 500, 5, 1 << 15),  # fewer on more corners
     # Attributes, value by value
-    "values-chunks": lambda: _valued(60, 60, 3, 1, kind=0, components=1, largest=(1,), origin=AS_CODED),
+    "values-chunks": lambda: _valued(
+        60, 60, 3, 1, kind=0, components=1, largest=(1,), origin=AS_CODED
+    ),
     # Six times normals that are never sent
     "values-normals": lambda: _valued(
         400, 400, 6, 1, kind=6, components=3, semantic=2, coding=RECOMPUTED, coded=0, largest=()
     ),
     # Attributes of faces
-    "values-faces": lambda: _valued(100, 100, 20, 1 << 15, domain=FACE, origin=AS_CODED, coded=20000),
+    "values-faces": lambda: _valued(
+        100, 100, 20, 1 << 15, domain=FACE, origin=AS_CODED, coded=20000
+    ),
     # Values that are quick to decode: plain, mixed, one number each, value by value, and normals
     "swift-plain": lambda: _valued(500, 500, 4, 1 << 15, swift=1),
     "swift": lambda: _valued(500, 500, 4, 1 << 15, swift=2),
-    "swift-numbers": lambda: _valued(500, 500, 9, 1 << 15, swift=2, kind=0, components=1, largest=(1,)),
-    "swift-chunks": lambda: _valued(60, 60, 3, 1, swift=2, kind=0, components=1, largest=(1,), origin=AS_CODED),
+    "swift-numbers": lambda: _valued(
+        500, 500, 9, 1 << 15, swift=2, kind=0, components=1, largest=(1,)
+    ),
+    "swift-chunks": lambda: _valued(
+        60, 60, 3, 1, swift=2, kind=0, components=1, largest=(1,), origin=AS_CODED
+    ),
     "swift-normals": lambda: _valued(
         500, 500, 4, 1 << 15, swift=2, kind=6, components=3, coding=OCTAHEDRAL, largest=(1022, 1022)
     ),
     "swift-small": lambda: _valued(3, 3, 255, 9, swift=2),  # 255 attributes of nine vertices
-    "seams": lambda: _seamed(1024, 1024, 60),  # 60 attributes with seams of their own on a million vertices
+    # 60 attributes with seams of their own on a million vertices.
+    "seams": lambda: _seamed(1024, 1024, 60),
     "seams-many": lambda: _seamed(256, 256, 255),  # 255 of them on fewer
     "skippable": lambda: _before_faces([(8, b"")] * 4000000),  # frames of nothing
     "skippable-long": lambda: _before_faces([(8, bytes(1 << 25))]),  # one of much
     "nested-header": lambda: _nested(FrameType.HEADER, 1 << 24),  # arrays in arrays as a header
     "nested-attribute": lambda: _nested(FrameType.ATTRIBUTE, 1 << 24),  # the same as a declaration
     "nested-metadata": lambda: _nested(FrameType.METADATA, 8000000),  # the same as metadata
-    "torn": lambda: _torn(one_block(20, 20, 4), _rubbish(1 << 20)),  # a megabyte of rubbish behind the blocks
+    # A megabyte of rubbish behind the blocks.
+    "torn": lambda: _torn(one_block(20, 20, 4), _rubbish(1 << 20)),
     "torn-chunks": lambda: _grid(ring(100, 100), 1)[: 9 * 4000],  # half of a stream of tiny frames
     "worthless": lambda: _worthless(64, 64, 1000, 100),  # blocks that end too early
     "sequence": lambda: _sequence(200, 200, [NOTHING], width=440),  # dictionaries of all columns
     # The same by iterations without end
     "sequence-power": lambda: _sequence(40, 40, [NOTHING], width=8, power=64, key_iterations=1024),
     # Runs of small meshes
-    "sequence-runs": lambda: _joined(_sequence(4, 4 + k % 9, [NOTHING], width=4, power=1) for k in range(3000)),
+    "sequence-runs": lambda: _joined(
+        _sequence(4, 4 + k % 9, [NOTHING], width=4, power=1) for k in range(3000)
+    ),
     # More large meshes than are kept
     "sequence-runs-kept": lambda: _joined(
-        _sequence(100, 100 + k, [_learnt_gop(1, 0, _still(100, 100 + k))], width=440, power=1) for k in range(20)
+        _sequence(100, 100 + k, [_learnt_gop(1, 0, _still(100, 100 + k))], width=440, power=1)
+        for k in range(20)
     ),
     # Two large meshes in turn, whose dictionaries are made again for each frame
     "sequence-runs-again": lambda: _joined(
-        [_sequence(100, 100, [_learnt_gop(1, 0, _still(100, 100))], width=440, power=2, key_iterations=2)] * 2,
+        [
+            _sequence(
+                100,
+                100,
+                [_learnt_gop(1, 0, _still(100, 100))],
+                width=440,
+                power=2,
+                key_iterations=2,
+            )
+        ]
+        * 2,
         [k % 2 for k in range(100)],
         _learnt_gop(1, 0, _still(100, 100)),
     ),
@@ -565,13 +692,19 @@ BOMBS: dict[str, Callable[[], bytes]] = {
         250, 200, _key_gops(40, _still(250, 200)), width=440, power=2, key_iterations=2
     ),
     # Many components of one part
-    "gop-part": lambda: _sequence(70, 70, [_learnt_gop(300, 160, _still(70, 70, 4900))], width=4, part=4900, power=1),
+    "gop-part": lambda: _sequence(
+        70, 70, [_learnt_gop(300, 160, _still(70, 70, 4900))], width=4, part=4900, power=1
+    ),
     # As many components as there is room for
-    "gop-components": lambda: _sequence(250, 200, [_learnt_gop(64, 75, _still(250, 200))] * 3, width=20),
+    "gop-components": lambda: _sequence(
+        250, 200, [_learnt_gop(64, 75, _still(250, 200))] * 3, width=20
+    ),
     # A GOP of 1,024 frames and 3,072 components
     "gop-wide": lambda: _sequence(20, 20, [_learnt_gop(1024, 3072, _still(20, 20))], width=50),
     # 1,024 frames of nothing, again and again
-    "gop-still": lambda: _sequence(100, 100, [_learnt_gop(1024, 0, _still(100, 100))] * 20, width=10),
+    "gop-still": lambda: _sequence(
+        100, 100, [_learnt_gop(1024, 0, _still(100, 100))] * 20, width=10
+    ),
     # 1,024 frames of 300 components
     "gop-300": lambda: _sequence(50, 50, [_learnt_gop(1024, 300, _still(50, 50))] * 2, width=400),
     # Frames that refer to many
@@ -579,7 +712,9 @@ BOMBS: dict[str, Callable[[], bytes]] = {
     # 60 attributes of four doubles that move
     "moving": lambda: _moving(60, 60, 60, [_learnt_gop(100, 4, _still(60, 60), 60)]),
     # 255 attributes in parts of eight vertices, coded in every GOP
-    "moving-most": lambda: _moving(20, 20, 255, [_learnt_gop(1, 1, _still(20, 20, 8), 255)] * 20, part=8, width=8),
+    "moving-most": lambda: _moving(
+        20, 20, 255, [_learnt_gop(1, 1, _still(20, 20, 8), 255)] * 20, part=8, width=8
+    ),
     # The same, frame by frame
     "moving-keys": lambda: _moving(
         20, 20, 255, _key_gops(20, _still(20, 20, 8), *[_still(20, 20, 8)] * 255), part=8, width=8
@@ -587,29 +722,50 @@ BOMBS: dict[str, Callable[[], bytes]] = {
     # 255 attributes of nine vertices, in 200 frames of nothing
     "moving-frames": lambda: _moving(3, 3, 255, [_learnt_gop(200, 0, _still(3, 3))]),
     # As many components of attributes as there is room for
-    "moving-components": lambda: _moving(200, 200, 2, [_learnt_gop(8, 12, _still(200, 200), 2)] * 3, width=20),
+    "moving-components": lambda: _moving(
+        200, 200, 2, [_learnt_gop(8, 12, _still(200, 200), 2)] * 3, width=20
+    ),
     # Many small ones of all that there can be many of
     "runs": lambda: _joined([_run()] * 300),
     "runs-again": lambda: _joined([_run()], [0] * 1500, NOTHING),
     "runs-parts": lambda: _joined([_run(_scattered(ring(3, 3), 3), part=3)] * 200),
-    "runs-order": lambda: _joined([_run(_order(torus(3, 3).faces, np.arange(9, dtype=np.int32)))] * 300),
+    "runs-order": lambda: _joined(
+        [_run(_order(torus(3, 3).faces, np.arange(9, dtype=np.int32)))] * 300
+    ),
     "runs-attributes": lambda: _joined([_attributed_run(10)] * 50),
     "metadata-entries": lambda: _before_faces(
-        [(FrameType.METADATA, write_map([(f"{k:04}{entry:03}", 1) for entry in range(256)])) for k in range(300)]
+        [
+            (FrameType.METADATA, write_map([(f"{k:04}{entry:03}", 1) for entry in range(256)]))
+            for k in range(300)
+        ]
     ),
     "gops": lambda: _sequence(3, 3, [NOTHING] * 2000, width=1, **ONCE),
-    "gops-learned": lambda: _sequence(3, 3, [_learnt_gop(1, 3, _still(3, 3))] * 1500, width=4, **ONCE),
-    "gops-parts": lambda: _sequence(20, 20, [_learnt_gop(1, 3, _still(20, 20, 8))] * 80, width=8, part=8, power=1),
-    "gops-following": lambda: _sequence(3, 3, _followed(1500, _learnt_gop(1, 3, _still(3, 3))), width=4, power=1),
-    "gops-following-large": lambda: _sequence(100, 100, _followed(3, _learnt_gop(64, 75, _still(100, 100))), width=20),
-    "gops-stretches": lambda: _sequence(3, 3, [replace(_learnt_gop(1024, 0), shown=BACK_AND_FORTH)] * 20, width=1),
+    "gops-learned": lambda: _sequence(
+        3, 3, [_learnt_gop(1, 3, _still(3, 3))] * 1500, width=4, **ONCE
+    ),
+    "gops-parts": lambda: _sequence(
+        20, 20, [_learnt_gop(1, 3, _still(20, 20, 8))] * 80, width=8, part=8, power=1
+    ),
+    "gops-following": lambda: _sequence(
+        3, 3, _followed(1500, _learnt_gop(1, 3, _still(3, 3))), width=4, power=1
+    ),
+    "gops-following-large": lambda: _sequence(
+        100, 100, _followed(3, _learnt_gop(64, 75, _still(100, 100))), width=20
+    ),
+    "gops-stretches": lambda: _sequence(
+        3, 3, [replace(_learnt_gop(1024, 0), shown=BACK_AND_FORTH)] * 20, width=1
+    ),
     "gops-keys": lambda: _sequence(3, 3, _key_gops(1500, _still(3, 3)), width=4, power=1),
     "gops-next": lambda: _sequence(3, 3, _next_gops(1500, _still(3, 3)), width=4, power=1),
     "moving-gops": lambda: _moving(3, 3, 100, [NOTHING] * 100),
-    "moving-parts": lambda: _moving(20, 20, 60, [_learnt_gop(1, 1, _still(20, 20, 8), 60)] * 5, part=8, width=8),
+    "moving-parts": lambda: _moving(
+        20, 20, 60, [_learnt_gop(1, 1, _still(20, 20, 8), 60)] * 5, part=8, width=8
+    ),
     "sequence-parts": lambda: _sequence(50, 50, [NOTHING], width=8, part=1, power=1),
     "attributes-small": lambda: _valued(3, 3, 255, 9),
     # Small ones of a large mesh
-    "values-chunks-large": lambda: _valued(400, 400, 1, 80, kind=0, components=1, largest=(1,), origin=AS_CODED),
+    "values-chunks-large": lambda: _valued(
+        400, 400, 1, 80, kind=0, components=1, largest=(1,), origin=AS_CODED
+    ),
 }
 """What each is called, and what makes it; beside it what it is that costs."""

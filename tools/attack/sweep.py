@@ -27,8 +27,15 @@ Ints = npt.NDArray[np.int32]
 def main() -> int:
     """Run the command."""
     parser = parser_of(__doc__)
-    parser.add_argument("--seconds", type=float, default=60.0, help="for all targets together (default: %(default)s)")
-    parser.add_argument("--targets", nargs="+", choices=TARGETS, default=list(TARGETS), metavar="NAME")
+    parser.add_argument(
+        "--seconds",
+        type=float,
+        default=60.0,
+        help="for all targets together (default: %(default)s)",
+    )
+    parser.add_argument(
+        "--targets", nargs="+", choices=TARGETS, default=list(TARGETS), metavar="NAME"
+    )
     args = parser.parse_args()
     refuse_other_kernels()
     for name in args.targets:
@@ -50,7 +57,10 @@ def attack(name: str, seconds: float) -> int:
         run(TARGETS[name], data)
         count += 1
     while time.monotonic() - begin < seconds:
-        run(TARGETS[name], mutate(random, random.choice(inputs)) if name == MESH_FILE else mutant(random, inputs))
+        run(
+            TARGETS[name],
+            mutate(random, random.choice(inputs)) if name == MESH_FILE else mutant(random, inputs),
+        )
         count += 1
     return count
 
@@ -75,7 +85,9 @@ def mutate(random: Random, data: bytes) -> bytes:
 def mutant(random: Random, seeds: list[bytes]) -> bytes:
     """A stream with something changed behind checksums that are right again."""
     seed = random.choice(seeds)
-    return mutate_stream(seed, 1 << 16, random.randrange(1 << 30), lambda part, size: mutate(random, part)[:size])
+    return mutate_stream(
+        seed, 1 << 16, random.randrange(1 << 30), lambda part, size: mutate(random, part)[:size]
+    )
 
 
 def _bad_faces() -> Iterator[Ints]:
@@ -88,6 +100,10 @@ def _bad_faces() -> Iterator[Ints]:
 def encode_any(faces: Ints) -> None:
     """Encode faces and their order, with blocks and on a grid; the encoder decodes and compares what it wrote."""
     positions = np.random.default_rng(len(faces)).normal(size=(int(faces.max()) + 1, 3))
-    for options in (EncodeOptions(step=0.01, keep_order=True, threads=1), EncodeOptions(grid=9, threads=1)):
-        with suppress(OptionError):  # decoders would refuse blocks in which everything is beside everything
+    for options in (
+        EncodeOptions(step=0.01, keep_order=True, threads=1),
+        EncodeOptions(grid=9, threads=1),
+    ):
+        # Decoders would refuse blocks in which everything is beside everything.
+        with suppress(OptionError):
             encode(TriangleMesh(positions, faces), options)

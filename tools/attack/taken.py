@@ -81,7 +81,11 @@ class Case:
 
 
 def problems_of(
-    names: Iterable[str], works: Sequence[Prepared], limits: str, most: float = 1.0, seconds: int = MOST_SECONDS
+    names: Iterable[str],
+    works: Sequence[Prepared],
+    limits: str,
+    most: float = 1.0,
+    seconds: int = MOST_SECONDS,
 ) -> Iterator[str]:
     """Yield which works take more than `most` of what limits allow, or end in something else than a result."""
     for name, cost in zip(names, taken_by_each(works, seconds), strict=True):
@@ -105,7 +109,9 @@ def bounds(limits: str, cost: Taken) -> tuple[float, float]:
     if limits == "service":
         return float(1 << 30), 10.0
     vertices, size = cost.vertices, cost.size
-    return (1 << 26) + 1024.0 * vertices + 64.0 * size, 1.0 + 4e-5 * (vertices + cost.shown) + 2e-5 * size
+    return (1 << 26) + 1024.0 * vertices + 64.0 * size, 1.0 + 4e-5 * (
+        vertices + cost.shown
+    ) + 2e-5 * size
 
 
 def browser_bounds(cost: Taken, stream: bytes) -> tuple[float, float]:
@@ -120,7 +126,9 @@ def sequence_memory(stream: bytes, vertices: int) -> float:
     try:
         for kind, payload in frames_of(stream):
             cursor = Cursor(payload)
-            if kind == FrameType.HEADER and (entries := header_entries(payload)).get(HEADER_FIELDS["sequence"].key):
+            if kind == FrameType.HEADER and (entries := header_entries(payload)).get(
+                HEADER_FIELDS["sequence"].key
+            ):
                 columns = max(columns, entries.get(HEADER_FIELDS["coefficients"].key, 0))
             elif kind == FrameType.GOP and cursor.varint() >= 0:
                 frames, components = beginning_of_gop(cursor.take(1)[0] % METHODS, cursor)
@@ -184,7 +192,9 @@ def taken_by_browser(streams: Sequence[bytes]) -> list[Taken]:
         for number, stream in enumerate(streams):
             Path(folder, f"{number}.bsm").write_bytes(stream)
         command = ["node", "--expose-gc", str(WEB), folder]
-        process = subprocess.run(command, capture_output=True, text=True, timeout=MOST_SECONDS, check=True)
+        process = subprocess.run(
+            command, capture_output=True, text=True, timeout=MOST_SECONDS, check=True
+        )
     costs = []
     for line, stream in zip(process.stdout.splitlines(), streams, strict=True):
         report = json.loads(line)
@@ -217,7 +227,8 @@ def _reported_by_child(works: Sequence[Prepared], seconds: int) -> list[Taken]:
         resource = importlib.import_module("resource")  # of POSIX
         resource.setrlimit(resource.RLIMIT_AS, (MOST_ADDRESSES, MOST_ADDRESSES))
         for prepare in works:
-            signal.setitimer(signal.ITIMER_PROF, 2 * seconds)  # processor time: a busy machine is not a finding
+            # Processor time: a busy machine is not a finding.
+            signal.setitimer(signal.ITIMER_PROF, 2 * seconds)
             signal.alarm(_PATIENCE * seconds)
             cost = _measured(prepare())
             os.write(writing, json.dumps(vars(cost)).encode() + b"\n")
@@ -247,7 +258,9 @@ def resident(name: str) -> int:
 
     Not `ru_maxrss`, which a process inherits from the one that started it.
     """
-    line = next(line for line in Path("/proc/self/status").read_text().splitlines() if line.startswith(name))
+    line = next(
+        line for line in Path("/proc/self/status").read_text().splitlines() if line.startswith(name)
+    )
     return 1024 * int(line.split()[1])
 
 

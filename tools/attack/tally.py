@@ -41,7 +41,9 @@ class Tally:
         else:
             self.decoded += 1
 
-    def hold(self, stream: bytes, decoded: Outcome, expected: Outcome, exact: bool = False) -> str | None:
+    def hold(
+        self, stream: bytes, decoded: Outcome, expected: Outcome, exact: bool = False
+    ) -> str | None:
         """Compare what a stream decoded to with what it should have; return the difference, or None.
 
         `exact` asks for attributes that are equal to the last bit, too.
@@ -50,14 +52,24 @@ class Tally:
         self.differing += problem is not None
         return problem
 
-    def _compared(self, stream: bytes, decoded: Outcome, expected: Outcome, exact: bool) -> str | None:
+    def _compared(
+        self, stream: bytes, decoded: Outcome, expected: Outcome, exact: bool
+    ) -> str | None:
         if isinstance(decoded, BsmError) or isinstance(expected, BsmError):
             outcomes = [
-                type(outcome).__name__.removesuffix("Error").lower() if isinstance(outcome, BsmError) else "decoded"
+                type(outcome).__name__.removesuffix("Error").lower()
+                if isinstance(outcome, BsmError)
+                else "decoded"
                 for outcome in (decoded, expected)
             ]
-            messages = "; ".join(str(outcome) for outcome in (decoded, expected) if isinstance(outcome, BsmError))
-            return None if outcomes[0] == outcomes[1] else f"{outcomes[0]} instead of {outcomes[1]}: {messages}"
+            messages = "; ".join(
+                str(outcome) for outcome in (decoded, expected) if isinstance(outcome, BsmError)
+            )
+            return (
+                None
+                if outcomes[0] == outcomes[1]
+                else f"{outcomes[0]} instead of {outcomes[1]}: {messages}"
+            )
         if not np.array_equal(decoded[1], expected[1]):
             return "the faces differ"
         if decoded[0].shape != expected[0].shape:

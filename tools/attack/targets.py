@@ -59,7 +59,10 @@ def stream(data: bytes) -> None:
     _expect(bool(np.isfinite(mesh.positions).all()), "positions that are not finite")
     for attribute in mesh.attributes:
         floats = attribute.values.dtype.kind == "f"
-        _expect(not floats or bool(np.isfinite(attribute.values).all()), "an attribute that is not finite")
+        _expect(
+            not floats or bool(np.isfinite(attribute.values).all()),
+            "an attribute that is not finite",
+        )
 
 
 def stream_threads(data: bytes) -> None:
@@ -89,16 +92,22 @@ def _events(decoder: Decoder | SequenceDecoder, data: bytes) -> None:
 def mesh_file(data: bytes) -> None:
     """A mesh file; its first byte tells the format that its name has."""
     folder = Path("/dev/shm") if Path("/dev/shm").is_dir() else Path(tempfile.gettempdir())
-    with tempfile.NamedTemporaryFile(dir=folder, suffix="." + MESH_FORMATS[data[0] % len(MESH_FORMATS)]) as file:
+    with tempfile.NamedTemporaryFile(
+        dir=folder, suffix="." + MESH_FORMATS[data[0] % len(MESH_FORMATS)]
+    ) as file:
         file.write(data[1:])
         file.flush()
         mesh = read_mesh(file.name, limits=LIMITS).mesh
     _expect(bool(np.isfinite(mesh.positions).all()), "positions that are not finite")
-    _expect(bool((mesh.faces < len(mesh.positions)).all() and (mesh.faces >= 0).all()), "faces out of range")
+    _expect(
+        bool((mesh.faces < len(mesh.positions)).all() and (mesh.faces >= 0).all()),
+        "faces out of range",
+    )
 
 
 TARGETS: dict[str, Target] = {
-    item.__name__: item for item in (inspection, stream, stream_threads, damaged, sequence, mesh_file)
+    item.__name__: item
+    for item in (inspection, stream, stream_threads, damaged, sequence, mesh_file)
 }
 MESH_FILE = "mesh_file"
 """The target that takes no streams; the others are given mutations that keep checksums right."""
@@ -117,7 +126,11 @@ def seeds(name: str) -> list[bytes]:
 
 def vector_seeds() -> list[bytes]:
     """The vectors, those that are to be refused too."""
-    return [path.read_bytes() for path in sorted(VECTORS.glob("*/*.bsm")) if path.stat().st_size < LARGEST_SEED]
+    return [
+        path.read_bytes()
+        for path in sorted(VECTORS.glob("*/*.bsm"))
+        if path.stat().st_size < LARGEST_SEED
+    ]
 
 
 def run(target: Target, data: bytes) -> None:

@@ -33,7 +33,14 @@ from tools.vectors.store import FOLDER
 
 MANY = 4
 SIDES = (16, 17, 18)
-AHEAD = ("good-base-*", "good-refined-*", "good-layer-*", "good-keys", "good-independent-*", "good-chain*")
+AHEAD = (
+    "good-base-*",
+    "good-refined-*",
+    "good-layer-*",
+    "good-keys",
+    "good-independent-*",
+    "good-chain*",
+)
 """Vectors with chains or with levels."""
 _MOST_BYTES = 1 << 13
 Part = tuple[Faces, Levels]
@@ -46,7 +53,10 @@ def main() -> int:
     parser.add_argument("--seed", type=int, default=0, help="default: %(default)s")
     args = parser.parse_args()
     differences = ((stream, difference(stream)) for stream in streams(args.count, args.seed))
-    return report((f"{problem}: {stream.hex()}" for stream, problem in differences if problem), f"{args.count} streams")
+    return report(
+        (f"{problem}: {stream.hex()}" for stream, problem in differences if problem),
+        f"{args.count} streams",
+    )
 
 
 def difference(stream: bytes) -> str:
@@ -86,10 +96,14 @@ def plain(value: Any) -> bytes:
 def streams(count: int, seed: int) -> Iterator[bytes]:
     """Yield so many damaged streams."""
     random = Random(seed)
-    vectors = [path.read_bytes() for name in AHEAD for path in sorted(FOLDER.parent.glob(f"*/{name}.bsm"))]
+    vectors = [
+        path.read_bytes() for name in AHEAD for path in sorted(FOLDER.parent.glob(f"*/{name}.bsm"))
+    ]
     for number in range(count):
         if number % 2:
-            yield mutate_stream(random.choice(vectors), _MOST_BYTES, random.randrange(1 << 30), _mutate_with(random))
+            yield mutate_stream(
+                random.choice(vectors), _MOST_BYTES, random.randrange(1 << 30), _mutate_with(random)
+            )
         else:
             yield cut_levels(random)
 
@@ -110,13 +124,21 @@ def cut_levels(random: Random) -> bytes:
         field, remaining = levels_field(faces, levels), len(levels)
         while remaining:
             size = random.choice(
-                (min(remaining, random.randint(1, 6)), remaining, random.randint(1, remaining), max(remaining - 1, 1))
+                (
+                    min(remaining, random.randint(1, 6)),
+                    remaining,
+                    random.randint(1, remaining),
+                    max(remaining - 1, 1),
+                )
             )
             chunks.append((first, size, b"".join(field.write(size))))
             first, remaining = first + size, remaining - size
     for _ in range(random.choice((0, 1, 1, 2, 3))):
         _spoil(chunks, random, len(parts[0][1]), first)
-    written = ((FrameType.REFINEMENT, write_varint(at) + write_varint(size) + data) for at, size, data in chunks)
+    written = (
+        (FrameType.REFINEMENT, write_varint(at) + write_varint(size) + data)
+        for at, size, data in chunks
+    )
     return stream_of([*frames, *written])
 
 
@@ -132,13 +154,17 @@ def _spoil(chunks: list[tuple[int, int, bytes]], random: Random, cells: int, end
         chunks.insert(random.randint(0, len(chunks)), (first, size, data))
     elif choice == 2 and chunks:
         chunks[place] = (first, size, wrong_bytes)
-    elif choice == 3:  # the last chunk of cells goes on among the vertices, and another chunk follows it to the end
+    # The last chunk of cells goes on among the vertices, and another chunk follows it to the end.
+    elif choice == 3:
         of_cells = [number for number, chunk in enumerate(chunks) if chunk[0] < cells]
         last = of_cells[-1] if of_cells else 0
         begin = chunks[last][0] if of_cells else 0
         rest = random.choice((random.randint(1, 8), random.randint(1, end - cells - 1)))
         into = end - cells - rest
-        across = [(begin, cells + into - begin, data), (cells + into, rest, random.choice((b"", wrong_bytes)))]
+        across = [
+            (begin, cells + into - begin, data),
+            (cells + into, rest, random.choice((b"", wrong_bytes))),
+        ]
         chunks[last : last + 1] = across
     elif choice == 4:
         chunks.append((cells, random.randint(1, end - cells), random.choice((data, wrong_bytes))))

@@ -74,11 +74,16 @@ def _nodes_of_primitives(scene: Scene, uses: int) -> None:
 
 def _materials(scene: Scene, uses: int) -> None:
     scene.tree["materials"] = [{"name": str(number)} for number in range(uses)]
-    scene.tree["meshes"][0]["primitives"] = [scene.primitive | {"material": number} for number in range(uses)]
+    scene.tree["meshes"][0]["primitives"] = [
+        scene.primitive | {"material": number} for number in range(uses)
+    ]
 
 
 def _skin(scene: Scene) -> None:
-    joints, weights = np.zeros((scene.count, 4), "u1"), np.tile(np.array([1, 0, 0, 0], "<f4"), (scene.count, 1))
+    joints, weights = (
+        np.zeros((scene.count, 4), "u1"),
+        np.tile(np.array([1, 0, 0, 0], "<f4"), (scene.count, 1)),
+    )
     scene.attributes |= {"JOINTS_0": scene.array(joints), "WEIGHTS_0": scene.array(weights)}
 
 
@@ -109,7 +114,9 @@ def _animations(scene: Scene, uses: int) -> None:
     _nodes(scene, uses)
     scene.move()
     (animation,) = scene.tree["animations"]
-    channels = [{"sampler": 0, "target": {"node": node, "path": "translation"}} for node in range(uses)]
+    channels = [
+        {"sampler": 0, "target": {"node": node, "path": "translation"}} for node in range(uses)
+    ]
     scene.tree["animations"] = [{**animation, "channels": channels}] * 4
 
 
@@ -121,7 +128,17 @@ def _instancing(scene: Scene, uses: int) -> None:
 
 
 _GLTF = (
-    *(_nodes, _tree_of_nodes, _meshes, _primitives, _nodes_of_primitives, _materials, _skins, _targets, _attributes),
+    *(
+        _nodes,
+        _tree_of_nodes,
+        _meshes,
+        _primitives,
+        _nodes_of_primitives,
+        _materials,
+        _skins,
+        _targets,
+        _attributes,
+    ),
     *(_joints, _instancing),
 )
 PIXEL = base64.b64decode(
@@ -185,7 +202,11 @@ def _references(instanceable: bool, size: int, uses: int) -> Sample:
     also = ", instanceable = true" if instanceable else ""
     text = f'def Xform "p" {{\n{_mesh_usd(size)}}}\n'
     return _usd(
-        text + "".join(f'def "b{n}" (references = </p>{also.replace(", ", chr(10))}) {{}}\n' for n in range(uses))
+        text
+        + "".join(
+            f'def "b{n}" (references = </p>{also.replace(", ", chr(10))}) {{}}\n'
+            for n in range(uses)
+        )
     )
 
 
@@ -200,9 +221,8 @@ def _instancer(size: int, uses: int) -> Sample:
 def _moving_usd(size: int, uses: int) -> Sample:
     """A mesh below a transform that has many times: each is a frame."""
     times = "".join(f"{number}: ({number}, 0, 0),\n" for number in range(uses))
-    moves = (
-        f'double3 xformOp:translate.timeSamples = {{\n{times}}}\nuniform token[] xformOpOrder = ["xformOp:translate"]\n'
-    )
+    samples = f"double3 xformOp:translate.timeSamples = {{\n{times}}}\n"
+    moves = f'{samples}uniform token[] xformOpOrder = ["xformOp:translate"]\n'
     return _usd(f'def Xform "p" {{\n{moves}{_mesh_usd(size)}}}\n')
 
 
@@ -258,7 +278,9 @@ def _obj_materials(size: int, uses: int) -> Sample:
 def _obj_libraries(size: int, uses: int) -> Sample:
     library = b"newmtl m\n" + b"Kd 1 1 1\n" * (size // 9)
     return Sample(
-        "obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\n" + b"mtllib l.mtl\n" * uses + b"f 1 2 3\n", (("l.mtl", library),)
+        "obj",
+        b"v 0 0 0\nv 1 0 0\nv 0 1 0\n" + b"mtllib l.mtl\n" * uses + b"f 1 2 3\n",
+        (("l.mtl", library),),
     )
 
 
@@ -292,10 +314,14 @@ class Model:
 
     def made(self, size: int, uses: int) -> Sample:
         filled = self.unit * max(1, size // max(len(self.unit), 1))
-        uses_text = self.between.join(self.use.replace("{0}", str(number)) for number in range(uses))
+        uses_text = self.between.join(
+            self.use.replace("{0}", str(number)) for number in range(uses)
+        )
         beside = (("b.obj", (TRIANGLE + filled).encode()),) if self.beside else ()
         used = "" if self.beside else filled
-        return Sample(self.suffix, (self.head + used + self.middle + uses_text + self.tail).encode(), beside)
+        return Sample(
+            self.suffix, (self.head + used + self.middle + uses_text + self.tail).encode(), beside
+        )
 
 
 TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
@@ -303,7 +329,9 @@ _COLLADA = '<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" versio
 _USES = '<library_visual_scenes><visual_scene id="w"><node><instance_geometry url="#g"/></node></visual_scene>'
 _USES += '</library_visual_scenes><scene><instance_visual_scene url="#w"/></scene></COLLADA>'
 _SOURCE = '<source id="s"><float_array id="a" count="9">0 0 0 1 0 0 0 1 0</float_array><technique_common><accessor '
-_SOURCE += 'source="#a" count="3" stride="3"><param name="X" type="float"/><param name="Y" type="float"/>'
+_SOURCE += (
+    'source="#a" count="3" stride="3"><param name="X" type="float"/><param name="Y" type="float"/>'
+)
 _SOURCE += '<param name="Z" type="float"/></accessor></technique_common></source>'
 _SOURCE += '<vertices id="v"><input semantic="POSITION" source="#s"/></vertices>'
 _GEOMETRY = f'<library_geometries><geometry id="g"><mesh>{_SOURCE}'
@@ -352,12 +380,18 @@ def _streams(has_own_streams: bool, size: int, uses: int) -> Sample:
     """One BSM stream, in as many views, or as many streams over the same bytes."""
     side = max(3, int(size**0.5))  # a plane takes few bytes
     mesh = patch(side, side)
-    stream = encode(TriangleMesh(mesh.positions * (1.0, 1.0, 0.0), mesh.faces), preset="small", effort="quick")
+    stream = encode(
+        TriangleMesh(mesh.positions * (1.0, 1.0, 0.0), mesh.faces), preset="small", effort="quick"
+    )
     count = len(mesh.positions)
-    views: list[Tree] = [{"buffer": 0, "byteLength": len(stream)}] * (uses if has_own_streams else 1)
+    views: list[Tree] = [{"buffer": 0, "byteLength": len(stream)}] * (
+        uses if has_own_streams else 1
+    )
     for number in range(uses):
         coded = {"stream": number if has_own_streams else 0, "attribute": "POSITION"}
-        views.append({"buffer": 1, "byteLength": 12 * count, "extensions": {"EXT_bsm_compression": coded}})
+        views.append(
+            {"buffer": 1, "byteLength": 12 * count, "extensions": {"EXT_bsm_compression": coded}}
+        )
     accessor = {"componentType": 5126, "type": "VEC3", "count": 3}
     accessors = [{**accessor, "bufferView": len(views) - uses + number} for number in range(uses)]
     names = {("POSITION" if not number else f"_A{number}"): number for number in range(uses)}
@@ -395,7 +429,10 @@ def uses() -> Iterator[tuple[str, Use]]:
         yield f"moving glb, {change.__name__.strip('_')}", partial(_gltf, change, True)
     yield "moving glb, animations", partial(_gltf, _animations, False)
     yield from (("glb, images", _images), ("gltf, images", _image_by_uri))
-    yield "3mf, items", lambda size, uses: Sample("3mf", three_mf(_mesh_3mf(size), '<item objectid="1"/>' * uses))
+    yield (
+        "3mf, items",
+        lambda size, uses: Sample("3mf", three_mf(_mesh_3mf(size), '<item objectid="1"/>' * uses)),
+    )
     yield from (
         ("3mf, components", _components),
         ("obj, materials", _obj_materials),
@@ -412,17 +449,29 @@ def uses() -> Iterator[tuple[str, Use]]:
         if (library := foreign.get(name[:3])) is None or importlib.util.find_spec(library):
             yield name, model.made
     if importlib.util.find_spec("pxr"):
-        yield from (("usd, references", partial(_references, False)), ("usd, instances", partial(_references, True)))
-        yield from (("usd, instancer", _instancer), ("usd, times", _moving_usd), ("usd, subsets", _subsets))
+        yield from (
+            ("usd, references", partial(_references, False)),
+            ("usd, instances", partial(_references, True)),
+        )
+        yield from (
+            ("usd, instancer", _instancer),
+            ("usd, times", _moving_usd),
+            ("usd, subsets", _subsets),
+        )
     if importlib.util.find_spec("collada"):
-        yield from (("dae, nodes", partial(_dae, False)), ("dae, nodes of nodes", partial(_dae, True)))
+        yield from (
+            ("dae, nodes", partial(_dae, False)),
+            ("dae, nodes of nodes", partial(_dae, True)),
+        )
 
 
 def cases(size: int, splits: tuple[float, ...]) -> Iterator[Case]:
     """Yield files of about `size` bytes."""
     for name, make in uses():
         for split in splits:
-            yield Case(f"{name}, {split} of {size} bytes are used", partial(of_size, make, size, split))
+            yield Case(
+                f"{name}, {split} of {size} bytes are used", partial(of_size, make, size, split)
+            )
 
 
 def of_size(make: Use, size: int, split: float = SPLITS[0]) -> Sample:
@@ -435,13 +484,21 @@ def main() -> int:
     """Run the command."""
     parser = parser_of(__doc__)
     parser.add_argument(
-        "--bytes", type=int, nargs="+", default=(40_000, 400_000), help="of files (default: %(default)s)"
+        "--bytes",
+        type=int,
+        nargs="+",
+        default=(40_000, 400_000),
+        help="of files (default: %(default)s)",
     )
     parser.add_argument("--short", action="store_true", help="one size, one split: what CI does")
     parser.add_argument("--only", default="", metavar="TEXT", help="cases whose name begins so")
     args = parser.parse_args()
     warm_up()
     sizes, splits = (args.bytes[:1], SPLITS[:1]) if args.short else (args.bytes, SPLITS)
-    cases_of_uses = [case for size in sizes for case in cases(size, splits) if case.name.startswith(args.only)]
-    both = chain.from_iterable(problems(cases_of_uses, limits, MOST) for limits in ("default", "service"))
+    cases_of_uses = [
+        case for size in sizes for case in cases(size, splits) if case.name.startswith(args.only)
+    ]
+    both = chain.from_iterable(
+        problems(cases_of_uses, limits, MOST) for limits in ("default", "service")
+    )
     return report(both, f"{len(cases_of_uses)} files of {len(list(uses()))} kinds of uses")

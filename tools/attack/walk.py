@@ -10,7 +10,13 @@ from random import Random
 from typing import Any
 
 from bsm.bitstream.container.header import HEADER_FIELDS, Declaration, Field, fields_of
-from bsm.bitstream.container.wire import MAX_ENTRIES, SKIPPABLE_TYPES, FrameType, write_map, write_varint
+from bsm.bitstream.container.wire import (
+    MAX_ENTRIES,
+    SKIPPABLE_TYPES,
+    FrameType,
+    write_map,
+    write_varint,
+)
 from tools.attack.taken import Case
 from tools.surgery import Frames, frames_of, stream_of, with_declaration, with_header
 
@@ -28,7 +34,9 @@ def _good() -> dict[str, bytes]:
         stream = path.read_bytes()
         kinds = [kind for kind, _ in frames_of(stream)]
         for kind in kinds:
-            smallest.setdefault(FrameType(kind).name if kind not in SKIPPABLE_TYPES else "SKIPPABLE", stream)
+            smallest.setdefault(
+                FrameType(kind).name if kind not in SKIPPABLE_TYPES else "SKIPPABLE", stream
+            )
         if kinds.count(FrameType.CONNECTIVITY) > 1 and kinds.count(FrameType.HEADER) > 1:
             smallest.setdefault("RUN", stream)
     return smallest
@@ -36,13 +44,17 @@ def _good() -> dict[str, bytes]:
 
 def bases() -> dict[str, bytes]:
     """Streams of each kind: blocks, a grid, layers, a sequence, one of several runs, attributes."""
-    return {kind: _good()[kind] for kind in ("BLOCK", "GRID", "REFINEMENT", "GOP", "RUN", "ATTRIBUTE")}
+    return {
+        kind: _good()[kind] for kind in ("BLOCK", "GRID", "REFINEMENT", "GOP", "RUN", "ATTRIBUTE")
+    }
 
 
 def _framed(base: str, kind: str) -> tuple[Frames, int]:
     """The frames of a stream, and the place of the last one of a type."""
     frames = frames_of(_good()[base])
-    return frames, max(i for i, (frame_kind, _) in enumerate(frames) if frame_kind == FrameType[kind])
+    return frames, max(
+        i for i, (frame_kind, _) in enumerate(frames) if frame_kind == FrameType[kind]
+    )
 
 
 def _longer(base: str, kind: str, fill: bytes) -> bytes:
@@ -105,11 +117,15 @@ def cases(size: int) -> Iterator[Case]:
     for base, stream in bases().items():
         for name, declared in HEADER_FIELDS.items():
             for number, value in enumerate(_largest(declared, size)):
-                yield Case(f"{base} header {name} {number}", partial(with_header, stream, -1, **{name: value}))
+                yield Case(
+                    f"{base} header {name} {number}",
+                    partial(with_header, stream, -1, **{name: value}),
+                )
     for name, declared in fields_of(Declaration).items():
         for number, value in enumerate(_largest(declared, size)):
             yield Case(
-                f"declaration {name} {number}", partial(with_declaration, _good()["ATTRIBUTE"], 0, **{name: value})
+                f"declaration {name} {number}",
+                partial(with_declaration, _good()["ATTRIBUTE"], 0, **{name: value}),
             )
     for kind in FrameType:
         if kind.name not in _good() and kind is not FrameType.END:
@@ -124,7 +140,9 @@ def cases(size: int) -> Iterator[Case]:
             yield Case(f"{kind.name} map of {what}", partial(_mapped, kind, payload))
     for what, payload in _maps(size):
         attribute_payload = write_varint(0) + write_varint(len(payload)) + payload
-        yield Case(f"ATTRIBUTE map of {what}", partial(_mapped, FrameType.ATTRIBUTE, attribute_payload))
+        yield Case(
+            f"ATTRIBUTE map of {what}", partial(_mapped, FrameType.ATTRIBUTE, attribute_payload)
+        )
     for number in SKIPPABLE_TYPES:
         yield Case(f"skippable {number}, many", partial(_skipped, number, b"", size // 3))
         yield Case(f"skippable {number}, long", partial(_skipped, number, bytes(size), 1))

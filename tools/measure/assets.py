@@ -45,7 +45,9 @@ def asset_of(path: str) -> TriangleMesh | None:
 def stream_of(mesh: TriangleMesh, effort: str) -> bytes:
     """Return our stream, which the encoder has decoded and compared with the mesh."""
     qualities = {attribute.name: f"{BITS[attribute.semantic]}bits" for attribute in mesh.attributes}
-    return encode(mesh, EncodeOptions(grid=POSITION_BITS, effort=effort, attributes=qualities, threads=1))
+    return encode(
+        mesh, EncodeOptions(grid=POSITION_BITS, effort=effort, attributes=qualities, threads=1)
+    )
 
 
 def draco_of(mesh: TriangleMesh) -> bytes:
@@ -53,7 +55,9 @@ def draco_of(mesh: TriangleMesh) -> bytes:
     import DracoPy
 
     vertices, _ = split_with_origin(mesh)
-    values = {attribute.semantic: attribute.values.astype(np.float64) for attribute in vertices.attributes}
+    values = {
+        attribute.semantic: attribute.values.astype(np.float64) for attribute in vertices.attributes
+    }
     data: bytes = DracoPy.encode(
         vertices.positions.astype(np.float32),
         vertices.faces.astype(np.uint32),
@@ -100,7 +104,9 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("assets", nargs="+", metavar="GLB")
     rows = []
-    print("| asset | triangles | time over Draco's | with --quick | bytes over Draco's | with --quick |")
+    print(
+        "| asset | triangles | time over Draco's | with --quick | bytes over Draco's | with --quick |"
+    )
     print("|---|---:|---:|---:|---:|---:|")
     for path in parser.parse_args().assets:
         mesh = asset_of(path)
@@ -110,5 +116,12 @@ def main() -> None:
         figures = " | ".join(f"{ratio:.2f}" for ratio in rows[-1])
         print(f"| {Path(path).stem} | {len(mesh.faces):,} | {figures} |", flush=True)
     if rows:
-        for name, figure in (("median", np.median(rows, axis=0)), ("largest", np.max(rows, axis=0))):
-            print(f"| {name} of {len(rows)} | | " + " | ".join(f"{ratio:.2f}" for ratio in figure) + " |")
+        for name, figure in (
+            ("median", np.median(rows, axis=0)),
+            ("largest", np.max(rows, axis=0)),
+        ):
+            print(
+                f"| {name} of {len(rows)} | | "
+                + " | ".join(f"{ratio:.2f}" for ratio in figure)
+                + " |"
+            )

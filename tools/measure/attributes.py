@@ -72,7 +72,9 @@ def check(mesh: TriangleMesh, attribute: Attribute, options: EncodeOptions) -> N
     quality = quality_of(attribute)
     extent = float(np.ptp(attribute.values.astype(np.float64), axis=0).max())
     if normals:
-        assert error.max_angle_deg is not None and error.max_angle_deg <= 1.3 * 90 / 2**NORMAL_BITS * 2, error
+        assert (
+            error.max_angle_deg is not None and error.max_angle_deg <= 1.3 * 90 / 2**NORMAL_BITS * 2
+        ), error
     elif quality == "exact":
         assert error.max_error == 0, error
     else:
@@ -85,7 +87,11 @@ def ours(mesh: TriangleMesh, attributes: tuple[Attribute, ...], grid: int) -> in
     qualities = {attribute.name: quality_of(attribute) for attribute in attributes}
     options = EncodeOptions(grid=grid, attributes=qualities)
     for attribute in attributes:
-        check(mesh, attribute, replace(options, attributes={attribute.name: qualities[attribute.name]}))
+        check(
+            mesh,
+            attribute,
+            replace(options, attributes={attribute.name: qualities[attribute.name]}),
+        )
     return len(encode(replace(mesh, attributes=attributes), options))
 
 
@@ -111,7 +117,9 @@ def theirs(mesh: TriangleMesh, attributes: tuple[Attribute, ...], grid: int) -> 
             options |= {"tex_coord": offered, "tex_coord_quantization_bits": TEXCOORD_BITS}
         elif attribute.semantic == "normal" and offered.dtype.kind == "f":
             options |= {"normals": offered, "normal_quantization_bits": NORMAL_BITS}
-        elif attribute.semantic == "color" and offered.dtype == np.uint8 and "colors" not in options:
+        elif (
+            attribute.semantic == "color" and offered.dtype == np.uint8 and "colors" not in options
+        ):
             options["colors"] = offered
         else:
             options.setdefault("generic_attributes", {})[attribute.name] = offered
@@ -146,7 +154,11 @@ def rows_of(mesh: TriangleMesh, grid: int) -> tuple[list[Row], Row]:
     alone = len(encode(bare, EncodeOptions(grid=grid)))
     for attribute in mesh.attributes:
         size = ours(bare, (attribute,), grid) - alone
-        other = -1 if attribute.domain == "face" else theirs(bare, (attribute,), grid) - theirs(bare, (), grid)
+        other = (
+            -1
+            if attribute.domain == "face"
+            else theirs(bare, (attribute,), grid) - theirs(bare, (), grid)
+        )
         rows.append(Row(f"{attribute.name}, {quality_of(attribute)}", size, other))
     shared = tuple(attribute for attribute in mesh.attributes if attribute.domain != "face")
     return rows, Row("whole file", ours(bare, shared, grid), theirs(bare, shared, grid))

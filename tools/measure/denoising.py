@@ -32,7 +32,12 @@ from bsm.codec.geometry.metrics import Reference, face_normals, mean_edge_length
 from bsm.codec.geometry.welding import weld
 from bsm.files.mesh import read_mesh
 from tools.made_shapes import Field, made_shape, mesh_of
-from tools.noise import correlated_along_normals, denoise_automatically, gaussian_along_axis, gaussian_along_normals
+from tools.noise import (
+    correlated_along_normals,
+    denoise_automatically,
+    gaussian_along_axis,
+    gaussian_along_normals,
+)
 from tools.sampled import THICK, ball, box, torus, voxelized, voxelized_mesh
 from tools.scans import CAMERAS, Scan, fused, view
 
@@ -55,7 +60,10 @@ FLAT: dict[str, Field] = {
     ),
     "stairs": lambda places: np.maximum(
         (np.abs(places) - 0.6).max(axis=-1),
-        np.minimum.reduce([np.maximum(at - places[..., 0], places[..., 2] + at) for at in (-0.3, 0.0, 0.3)]) - 0.15,
+        np.minimum.reduce(
+            [np.maximum(at - places[..., 0], places[..., 2] + at) for at in (-0.3, 0.0, 0.3)]
+        )
+        - 0.15,
     ),
     "roof": lambda places: np.maximum(
         (np.abs(places) - HALVES).max(axis=-1), 0.35 * np.abs(places[..., 1]) + places[..., 2] - 0.2
@@ -65,7 +73,11 @@ FLAT_CELLS, DRAWN = 68, 8
 ONE_PLANE = 0.9999  # cosine of the angle between neighbors on one plane
 STEADY = 1.1  # the largest of draws over the least
 
-GOALS = {"default": ("shading", 1.0), "--for shape": ("shape", 1.0), "--strength 0.8": ("shading", 0.8)}
+GOALS = {
+    "default": ("shading", 1.0),
+    "--for shape": ("shape", 1.0),
+    "--strength 0.8": ("shading", 0.8),
+}
 WHITE, SEED, MADE, MADE_CELLS = 0.2, 3, 20, 28
 
 
@@ -94,17 +106,32 @@ def inputs(folder: Path) -> Iterator[tuple[str, Callable[[], Scan]]]:
     solids = {"ball": ball, "torus": torus, "box": box(0.6, 0.5, 0.4)}
     for thick, (shape, field) in product(SLICES, solids.items()):
         yield f"slices of {thick:g} cells, {shape}", partial(voxelized, field, SLICED, thick)
-        yield f"slices of {thick:g} cells, stored singly, {shape}", partial(voxelized, field, 50, thick, 1.0, thick)
+        yield (
+            f"slices of {thick:g} cells, stored singly, {shape}",
+            partial(voxelized, field, 50, thick, 1.0, thick),
+        )
     for thick, (shape, field) in product(UNEVEN, solids.items()):
-        yield f"uneven slices of {thick:g} cells, {shape}", partial(voxelized, field, SLICED, thick, 1.0, thick)
+        yield (
+            f"uneven slices of {thick:g} cells, {shape}",
+            partial(voxelized, field, SLICED, thick, 1.0, thick),
+        )
     shaped = partial(made_shape, cells=40)
     for thick, seed in product(SLICES, ORGANS):
-        yield f"slices of {thick:g} cells, made {seed}", partial(_made, shaped, seed, voxelized_mesh, SLICED, thick)
+        yield (
+            f"slices of {thick:g} cells, made {seed}",
+            partial(_made, shaped, seed, voxelized_mesh, SLICED, thick),
+        )
     for thick, name in product(SLICES, SCANS):
-        yield f"slices of {thick:g} cells, {name}", partial(_made, mesh, name, voxelized_mesh, SLICED, thick)
+        yield (
+            f"slices of {thick:g} cells, {name}",
+            partial(_made, mesh, name, voxelized_mesh, SLICED, thick),
+        )
     for name in SCANS:
         yield f"binary {name}, 110 cells", partial(_made, mesh, name, voxelized_mesh, 110)
-        yield f"thick slices, {name}, 110 cells", partial(_made, mesh, name, voxelized_mesh, 110, THICK)
+        yield (
+            f"thick slices, {name}, 110 cells",
+            partial(_made, mesh, name, voxelized_mesh, 110, THICK),
+        )
     for name in (*SCANS, "horse_48485"):
         yield f"one axis, {name}", partial(_made, mesh, name, _moved, 0.3, gaussian_along_axis)
     for (camera, model), name in product(CAMERAS.items(), SCANS):
@@ -112,7 +139,10 @@ def inputs(folder: Path) -> Iterator[tuple[str, Callable[[], Scan]]]:
     for (camera, model), seed in product(CAMERAS.items(), ORGANS):
         yield f"{camera}, made {seed}", partial(_made, shaped, seed, view, model, SEED)
     for name in (*SCANS, *PARTS):
-        yield f"fused views, {name}", partial(_made, mesh, name, fused, CAMERAS["structured light"], SEED)
+        yield (
+            f"fused views, {name}",
+            partial(_made, mesh, name, fused, CAMERAS["structured light"], SEED),
+        )
     for name in SCANS:
         yield (
             f"correlated, {name}",
@@ -120,7 +150,9 @@ def inputs(folder: Path) -> Iterator[tuple[str, Callable[[], Scan]]]:
         )
 
 
-def _made(mesh: Callable[[Any], tuple[Positions, Faces]], name: Any, make: Callable[..., Scan], *how: Any) -> Scan:
+def _made(
+    mesh: Callable[[Any], tuple[Positions, Faces]], name: Any, make: Callable[..., Scan], *how: Any
+) -> Scan:
     return make(*mesh(name), *how)
 
 
@@ -135,9 +167,12 @@ Meshed = tuple[Positions, Faces]
 
 def whites(folder: Path) -> Iterator[tuple[str, Callable[[], Meshed], float]]:
     """Names of rows, functions that make clean meshes, and the noise for them, in mean edges."""
-    yield from ((f"flat {name}", partial(mesh_of, field, FLAT_CELLS), 0.3) for name, field in FLAT.items())
     yield from (
-        (f"flat block, noise {sigma}", partial(mesh_of, FLAT["block"], FLAT_CELLS), sigma) for sigma in (0.2, 0.4)
+        (f"flat {name}", partial(mesh_of, field, FLAT_CELLS), 0.3) for name, field in FLAT.items()
+    )
+    yield from (
+        (f"flat block, noise {sigma}", partial(mesh_of, FLAT["block"], FLAT_CELLS), sigma)
+        for sigma in (0.2, 0.4)
     )
     for name in ("twelve_dodecahedron", "c3d_spot", "fandisk_6475", "sharpsphere"):
         yield name, partial(_clean, str(folder / "static" / f"{name}.ply")), 0.3
@@ -162,7 +197,10 @@ def draws(folder: Path, rows: list[str], count: int) -> None:
         ratios.append(max(left) / min(left))
         bounds.append(max(least) / min(least))  # NaN if there is none
         angles = "".join(f"{angle:7.2f}" for angle in (reference.theta(noisy), *left))
-        print(f"{name:28}{len(clean):8}{angles}{ratios[-1]:8.2f}{bounds[-1]:8.2f}  {' '.join(kinds)}", flush=True)
+        print(
+            f"{name:28}{len(clean):8}{angles}{ratios[-1]:8.2f}{bounds[-1]:8.2f}  {' '.join(kinds)}",
+            flush=True,
+        )
     pairs = list(zip(ratios, bounds, strict=True))
     print(f"{sum(ratio <= STEADY for ratio in ratios)} of {len(ratios)} at most {STEADY:.2f}")
     print(
@@ -176,10 +214,16 @@ def possible(clean: Positions, noisy: Positions, faces: Faces) -> float:
     ends = normals[topology.pairs]
     together = topology.pairs[(ends[:, 0] * ends[:, 1]).sum(axis=1) > ONE_PLANE]
     graph = sparse.csr_matrix((np.ones(len(together)), together.T), (len(faces), len(faces)))
-    planes = PlaneSearch(noisy, clean, topology).planes(connected_components(graph, directed=False)[1])
+    planes = PlaneSearch(noisy, clean, topology).planes(
+        connected_components(graph, directed=False)[1]
+    )
     flat = planes.labels >= 0
     apart = np.linalg.norm(planes.normals[planes.labels[flat]] - normals[flat], axis=1)
-    return float(np.degrees(2.0 * np.arcsin(0.5 * apart)).mean()) if planes.share > MOST_FLAT else np.nan
+    return (
+        float(np.degrees(2.0 * np.arcsin(0.5 * apart)).mean())
+        if planes.share > MOST_FLAT
+        else np.nan
+    )
 
 
 def goals(files: Iterable[str]) -> None:
@@ -193,9 +237,13 @@ def goals(files: Iterable[str]) -> None:
         clean, faces = shape()
         noisy = gaussian_along_normals(clean, faces, WHITE, SEED)
         reference = Reference(clean, faces)
-        whole = {goal: denoise_automatically(noisy, faces, goal)[0] for goal in ("shading", "shape")}
+        whole = {
+            goal: denoise_automatically(noisy, faces, goal)[0] for goal in ("shading", "shape")
+        }
         results = [noisy + strength * (whole[goal] - noisy) for goal, strength in GOALS.values()]
-        measured = np.array([[reference.theta(moved), np.linalg.norm(moved - clean)] for moved in (noisy, *results)])
+        measured = np.array(
+            [[reference.theta(moved), np.linalg.norm(moved - clean)] for moved in (noisy, *results)]
+        )
         left[name] = measured[1:] / measured[0]
         print(f"{name:28}{len(clean):8}{measured[0, 0]:8.2f}" + _columns(left[name]), flush=True)
     for what, share in (("median", 0.5), ("ninth of ten", 0.9), ("worst", 1.0)):
@@ -213,7 +261,9 @@ def _columns(shares: Floats) -> str:
 
 def main() -> int:
     """Print the table."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("meshes", type=Path)
     parser.add_argument("rows", nargs="*")
     parser.add_argument("--for", dest="goal", default="shading")
@@ -227,7 +277,17 @@ def main() -> int:
         goals([str(args.meshes), *args.rows])
         return 0
     ratios = []
-    heads = ("row", "vertices", "noisy", *(f"T{steps}" for steps in TAUBIN), "ours", "says", "off", "seconds", "found")
+    heads = (
+        "row",
+        "vertices",
+        "noisy",
+        *(f"T{steps}" for steps in TAUBIN),
+        "ours",
+        "says",
+        "off",
+        "seconds",
+        "found",
+    )
     print("{:40}{:>9}{:>8}{:>7}{:>7}{:>7}{:>7}{:>7}  {:>10}{:>14}{:>9}  {}".format(*heads))
     for name, make in inputs(args.meshes):
         if args.rows and not any(part in name for part in args.rows):
@@ -237,16 +297,24 @@ def main() -> int:
         result, choice = denoise_automatically(scan.positions, scan.faces, args.goal)
         seconds = time.perf_counter() - begin
         rivals = [scan.angle(taubin(scan.positions, scan.faces, steps)) for steps in TAUBIN]
-        says = f"{choice.expected:.1f}-{choice.at_most:.1f}" if choice.steps and choice.reliable else "-"
+        says = (
+            f"{choice.expected:.1f}-{choice.at_most:.1f}"
+            if choice.steps and choice.reliable
+            else "-"
+        )
         ratios.append(scan.angle(result) / min(rivals))
         edge = mean_edge_length(scan.positions, scan.faces)
         before, after = (scan.rms(positions) / edge for positions in (scan.positions, result))
         angles = (scan.angle(scan.positions), *rivals, scan.angle(result))
         print(
-            f"{name:40}{len(result):9}{angles[0]:8.2f}" + "".join(f"{angle:7.2f}" for angle in angles[1:]) + "  "
+            f"{name:40}{len(result):9}{angles[0]:8.2f}"
+            + "".join(f"{angle:7.2f}" for angle in angles[1:])
+            + "  "
             f"{says:>10}{f'{before:.3f}->{after:.3f}':>14}{seconds:9.1f}  {choice.kind}: {choice.reason}",
             flush=True,
         )
     if ratios:
-        print(f"ours over the best of Taubin's: median {np.median(ratios):.2f}, worst {max(ratios):.2f}")
+        print(
+            f"ours over the best of Taubin's: median {np.median(ratios):.2f}, worst {max(ratios):.2f}"
+        )
     return 0

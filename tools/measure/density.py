@@ -11,7 +11,21 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 
 PARTICIPLES = frozenset(
-    {"asked", "called", "done", "found", "given", "held", "kept", "known", "left", "made", "meant", "named", "near"}
+    {
+        "asked",
+        "called",
+        "done",
+        "found",
+        "given",
+        "held",
+        "kept",
+        "known",
+        "left",
+        "made",
+        "meant",
+        "named",
+        "near",
+    }
     | {"other", "own", "said", "seen", "sent", "shown", "some", "taken", "told", "wanted", "whole"}
 )
 """Words that are names without a noun."""
@@ -70,7 +84,9 @@ def measure_density(text: str) -> Density:
         _count(nodes, (ast.expr, ast.stmt)),
         _count(nodes, (ast.IfExp,)),
         _count(nodes, COMPREHENSIONS),
-        Counter(_name(node) for node in nodes if isinstance(node, ast.Name | ast.arg | ast.Attribute)),
+        Counter(
+            _name(node) for node in nodes if isinstance(node, ast.Name | ast.arg | ast.Attribute)
+        ),
     )
 
 

@@ -50,7 +50,10 @@ def lit(frames: Positions, faces: Faces) -> Array:
 
 def stretched(frames: Positions, faces: Faces) -> Array:
     """How much longer the edges around a vertex are than in the first frame, octaves, shape (T, n, 1), float32."""
-    edges = np.unique(np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1), axis=0)
+    edges = np.unique(
+        np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1),
+        axis=0,
+    )
     sums = np.empty((*frames.shape[:2], 1))
     for number, frame in enumerate(frames):
         lengths = np.linalg.norm(frame[edges[:, 0]] - frame[edges[:, 1]], axis=1)
@@ -65,14 +68,18 @@ def ours(frames: Positions, faces: Faces, name: str, values: Array, bound: float
     sizes = []
     for with_values in (True, False):
         meshes = [
-            TriangleMesh(frame, faces, (Attribute(name, own, semantic=semantic),) if with_values else ())
+            TriangleMesh(
+                frame, faces, (Attribute(name, own, semantic=semantic),) if with_values else ()
+            )
             for frame, own in zip(frames, values, strict=True)
         ]
         options = SequenceOptions(step=STEP, gop=len(frames))
         encoder = SequenceEncoder(faces, options, len(frames))
         data = b"".join(encoder.chunks(meshes))
         sizes.append(len(data))
-        for given, decoded in zip(values, decode_frames(data) if with_values else (), strict=with_values):
+        for given, decoded in zip(
+            values, decode_frames(data) if with_values else (), strict=with_values
+        ):
             off = decoded.attributes[0].values.astype(float) - given[encoder.vertex_order]
             assert np.square(off).mean() <= bound**2 * (1 + 1e-9), (name, bound)
     return sizes[0] - sizes[1]
@@ -81,7 +88,9 @@ def ours(frames: Positions, faces: Faces, name: str, values: Array, bound: float
 def zstd_bytes(levels: Array) -> int:
     """Bytes of levels, shape (T, n, c), as differences from frame to frame."""
     differences = np.diff(levels, axis=0, prepend=0).astype(np.int8)
-    return len(zstandard.ZstdCompressor(level=19).compress(differences.transpose(0, 2, 1).tobytes()))
+    return len(
+        zstandard.ZstdCompressor(level=19).compress(differences.transpose(0, 2, 1).tobytes())
+    )
 
 
 def draco_bytes(frames: Positions, faces: Faces, levels: Array) -> int:
@@ -90,9 +99,14 @@ def draco_bytes(frames: Positions, faces: Faces, levels: Array) -> int:
 
     sizes = []
     for frame, own in zip(frames[::EVERY], levels[::EVERY], strict=True):
-        colors = np.ascontiguousarray(np.repeat(own, 3, axis=1) if own.shape[1] == 1 else own, np.uint8)
+        colors = np.ascontiguousarray(
+            np.repeat(own, 3, axis=1) if own.shape[1] == 1 else own, np.uint8
+        )
         options = {"quantization_bits": 10, "compression_level": 10}
-        bare, full = DracoPy.encode(frame, faces, **options), DracoPy.encode(frame, faces, colors=colors, **options)
+        bare, full = (
+            DracoPy.encode(frame, faces, **options),
+            DracoPy.encode(frame, faces, colors=colors, **options),
+        )
         sizes.append((len(full) - len(bare)) / (3 if own.shape[1] == 1 else 1))
     return round(float(np.mean(sizes)) * len(frames))
 
@@ -108,7 +122,11 @@ def measure(name: str, frames: Positions, faces: Faces) -> list[str]:
         bound = share / 100.0 * float(np.ptp(values.astype(float), axis=(0, 1)).max())
         step = np.sqrt(12.0) * bound
         levels = np.rint((values.astype(float) - values.min()) / step).astype(np.int16)
-        found = ours(frames, faces, what, values, bound), zstd_bytes(levels), draco_bytes(frames, faces, levels)
+        found = (
+            ours(frames, faces, what, values, bound),
+            zstd_bytes(levels),
+            draco_bytes(frames, faces, levels),
+        )
         per = ", ".join(f"{8.0 * size / values[..., 0].size:.3f}" for size in found)
         rows.append(
             f"| {name}, {what} within {bound:.3g} | {found[0]:,} | {found[1]:,} | {found[2]:,} | "
@@ -120,11 +138,15 @@ def measure(name: str, frames: Positions, faces: Faces) -> list[str]:
 
 def main() -> None:
     """Measure some npz of a folder, or all."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("folder", type=Path)
     parser.add_argument("names", nargs="*")
     args = parser.parse_args()
-    print("| field | ours | zstd | Draco | of theirs | bits per vertex and frame |\n|---|---|---|---|---|---|")
+    print(
+        "| field | ours | zstd | Draco | of theirs | bits per vertex and frame |\n|---|---|---|---|---|---|"
+    )
     for path in sorted(args.folder.glob("*.npz")):
         if not args.names or path.stem in args.names:
             arrays = np.load(path)

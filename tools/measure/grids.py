@@ -36,7 +36,9 @@ def rounded(positions: Positions, bits: int) -> Faces:
 def encode(positions: Positions, faces: Faces, bits: int) -> tuple[bytes, float]:
     """A whole stream, once it is found to be exact, and the processor time per vertex in microseconds."""
     start = time.process_time()
-    encoder = Encoder(TriangleMesh(positions.astype(np.float64), faces), EncodeOptions(grid=bits, threads=1))
+    encoder = Encoder(
+        TriangleMesh(positions.astype(np.float64), faces), EncodeOptions(grid=bits, threads=1)
+    )
     data = encoder.encode()
     spent = (time.process_time() - start) / len(positions) * 1e6
     cell = float((positions - positions.min(axis=0)).max()) / ((1 << bits) - 1)

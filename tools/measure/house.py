@@ -41,7 +41,9 @@ ROOMS = {
     "tools": ("tools/",),
 }
 """The folders whose density is printed."""
-INTERNALS = re.compile(r"^\s*(?:from|import) bsm\.(?!cli|vtk|pyvista|openmesh|_core|__main__)\w", re.MULTILINE)
+INTERNALS = re.compile(
+    r"^\s*(?:from|import) bsm\.(?!cli|vtk|pyvista|openmesh|_core|__main__)\w", re.MULTILINE
+)
 """An import of a module that users do not import."""
 PATCHES = re.compile(r"\bmonkeypatch\.setattr\b")
 WIDEST = 140
@@ -67,7 +69,9 @@ LAST_RELEASE = {
 
 def list_files() -> list[Path]:
     """Return the files that git knows, relative to the root, without links."""
-    listing = subprocess.run(["git", "ls-files"], cwd=ROOT, check=True, capture_output=True, text=True).stdout
+    listing = subprocess.run(
+        ["git", "ls-files"], cwd=ROOT, check=True, capture_output=True, text=True
+    ).stdout
     files = [Path(name) for name in listing.splitlines()]
     return [file for file in files if (ROOT / file).is_file() and not (ROOT / file).is_symlink()]
 
@@ -86,16 +90,24 @@ def measure_sizes(files: Iterable[Path]) -> dict[str, int]:
         "codec proper, tokens": codec,
         "rest of the product, tokens": sum(tokens.values()) - codec,
         "tools, tokens": sum(count_tokens(ROOT / file) for file in tools),
-        "named numbers of the search": _total(count_constants, [file for file in product if SEARCH.match(str(file))]),
+        "named numbers of the search": _total(
+            count_constants, [file for file in product if SEARCH.match(str(file))]
+        ),
         "function of Python, 95th percentile, lines": lengths[len(lengths) * 95 // 100],
         "comment lines of Python, per thousand": 1000 * comments // _total(count_lines, python),
         "tools, lines of Python": _total(count_lines, _with_suffix(tools, (".py",))),
         "tests, lines": _total(count_lines, tests),
-        "tests, imports of internals": _total(lambda text: len(INTERNALS.findall(text)), _with_suffix(tests, (".py",))),
-        "tests, patches": _total(lambda text: len(PATCHES.findall(text)), _with_suffix(tests, (".py",))),
+        "tests, imports of internals": _total(
+            lambda text: len(INTERNALS.findall(text)), _with_suffix(tests, (".py",))
+        ),
+        "tests, patches": _total(
+            lambda text: len(PATCHES.findall(text)), _with_suffix(tests, (".py",))
+        ),
     }
     for language, suffixes in LANGUAGES.items():
-        sizes[f"product, lines of {language}"] = _total(count_lines, _with_suffix(product, suffixes))
+        sizes[f"product, lines of {language}"] = _total(
+            count_lines, _with_suffix(product, suffixes)
+        )
     return sizes
 
 
@@ -119,7 +131,11 @@ def wide_lines(files: Iterable[Path]) -> list[str]:
 def function_lengths(text: str) -> list[int]:
     """Return the lines of each function of a source in Python, without docstrings and comments."""
     comments = comment_lines(text)
-    return [_length(node, comments) for node in ast.walk(ast.parse(text)) if isinstance(node, ast.FunctionDef)]
+    return [
+        _length(node, comments)
+        for node in ast.walk(ast.parse(text))
+        if isinstance(node, ast.FunctionDef)
+    ]
 
 
 def _length(function: ast.FunctionDef, comments: list[int]) -> int:
@@ -139,7 +155,9 @@ def count_lines(text: str) -> int:
 
 def count_constants(text: str) -> int:
     """Count the numbers that a module gives names; each entry of a tuple or table is one, and so is an expression."""
-    values = (node.value for node in ast.parse(text).body if isinstance(node, ast.Assign | ast.AnnAssign))
+    values = (
+        node.value for node in ast.parse(text).body if isinstance(node, ast.Assign | ast.AnnAssign)
+    )
     return sum(map(_count_numbers, filter(None, values)))
 
 
@@ -179,7 +197,9 @@ def main() -> int:
     print(f"{'':44}{'now':>9}{'last release':>14}")
     for name, size in measure_sizes(files).items():
         print(f"{name:44}{size:9,}{LAST_RELEASE[name]:14,}")
-    print("\nof Python: expressions a line, conditional expressions and comprehensions in 1,000 lines,")
+    print(
+        "\nof Python: expressions a line, conditional expressions and comprehensions in 1,000 lines,"
+    )
     print("bare participles in 1,000 names")
     for name, folders in ROOMS.items():
         nodes, conditionals, comprehensions, participles = measure_room(files, folders).figures

@@ -34,7 +34,10 @@ def options_of(targets: bool) -> Iterator[tuple[str, EncodeOptions]]:
         yield name, replace(PRESETS[name], threads=1)
     if targets:
         for kind, value in (("theta_deg", 5.0), ("nmsve_db", -48.0)):
-            yield f"{kind} {value:g}", replace(PRESETS["none"], threads=1, target=Target(kind, value))
+            yield (
+                f"{kind} {value:g}",
+                replace(PRESETS["none"], threads=1, target=Target(kind, value)),
+            )
         yield "max_error 0.002", replace(PRESETS["none"], threads=1, contract=Contract(0.002))
 
 
@@ -92,7 +95,9 @@ def _measure(args: argparse.Namespace, console: Console) -> None:
 
 def main() -> None:
     """Print the regret of encodings of meshes."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("meshes", nargs="+", type=Path)
     parser.add_argument("--targets", action="store_true", help="measure errors without a look, too")
     run_command(parser, _measure)

@@ -47,7 +47,9 @@ Works: TypeAlias = tuple[Callable[[], Any], Callable[[], Any], Callable[[], Any]
 
 def chosen(names: list[str]) -> list[str]:
     """The named meshes, and as many others, by a hash of their names."""
-    others = sorted(set(names) - {*NAMED}, key=lambda name: hashlib.sha256(name.encode()).hexdigest())
+    others = sorted(
+        set(names) - {*NAMED}, key=lambda name: hashlib.sha256(name.encode()).hexdigest()
+    )
     return [*NAMED, *others[: len(NAMED)]]
 
 
@@ -55,7 +57,9 @@ def made() -> Iterator[tuple[str, Works]]:
     """What needs no fetching: a smooth mesh, and one of two congruent halves."""
     rope = knot(2000)
     yield "made rope", works_of_mesh(rope)
-    halves = np.concatenate([rope.positions, rope.positions * (-1.0, 1.0, 1.0) + (rope.diagonal, 0.0, 0.0)])
+    halves = np.concatenate(
+        [rope.positions, rope.positions * (-1.0, 1.0, 1.0) + (rope.diagonal, 0.0, 0.0)]
+    )
     faces = np.concatenate([rope.faces, rope.faces[:, ::-1] + len(rope.positions)])
     yield "made pair", works_of_mesh(TriangleMesh(halves, faces))
     yield "made limbs, 60 frames", works_of_sequence(limbs(rope, 60), rope.faces)
@@ -68,7 +72,11 @@ def made_sequences() -> Iterator[tuple[str, Positions, Faces]]:
     yield "made limbs, 400 frames", long, middle.faces
     yield "made limbs, 2,000 frames", limbs(small, 2000), small.faces
     yield "made loop", np.tile(long[:50], (6, 1, 1)), middle.faces
-    yield "made clips", np.concatenate([limbs(middle, 100, bones, bones) for bones in (4, 9, 16)]), middle.faces
+    yield (
+        "made clips",
+        np.concatenate([limbs(middle, 100, bones, bones) for bones in (4, 9, 16)]),
+        middle.faces,
+    )
     yield (
         "made jumps",
         long[:250].reshape(10, 25, -1, 3)[[3, 9, 0, 5, 1, 8, 2, 7, 4, 6]].reshape(250, -1, 3),
@@ -89,7 +97,10 @@ def cases(folder: Path, note: Callable[[str], None]) -> Iterator[tuple[str, Work
     for source in sources:
         if source.name in BENT:
             mesh = source.mesh()
-            yield f"{source.name}, bent", works_of_sequence(bent(mesh, BENT[source.name]), mesh.faces)
+            yield (
+                f"{source.name}, bent",
+                works_of_sequence(bent(mesh, BENT[source.name]), mesh.faces),
+            )
     for name, frames, faces in made_sequences():
         yield name, works_of_sequence(frames, faces)
 
@@ -106,7 +117,10 @@ def works_of_mesh(mesh: TriangleMesh) -> Works:
 
 def works_of_sequence(frames: Positions, faces: Faces) -> Works:
     meshes = [TriangleMesh(frame, faces) for frame in frames]
-    ours, theirs = bsm.encode_sequence(frames, faces, threads=1), [encode_draco(mesh, BITS, LEVEL) for mesh in meshes]
+    ours, theirs = (
+        bsm.encode_sequence(frames, faces, threads=1),
+        [encode_draco(mesh, BITS, LEVEL) for mesh in meshes],
+    )
     return (
         lambda: bsm.encode_sequence(frames, faces, threads=1),
         lambda: [encode_draco(mesh, BITS, LEVEL) for mesh in meshes],
@@ -122,7 +136,8 @@ def ratios(works: Works) -> tuple[float, float]:
     least = [math.inf] * len(works)
     for turn in range(TURNS * len(works)):
         at = turn % len(works)
-        with threadpool_limits(1):  # threads of BLAS that wait for each other take time from this one
+        # Threads of BLAS that wait for each other take time from this one.
+        with threadpool_limits(1):
             begin = time.thread_time()
             works[at]()
             least[at] = min(least[at], time.thread_time() - begin)
@@ -131,7 +146,9 @@ def ratios(works: Works) -> tuple[float, float]:
 
 def guard(args: argparse.Namespace) -> None:
     """Compare all ratios with those of the file."""
-    measured = made() if args.made else cases(args.folder, lambda text: print(text, file=sys.stderr))
+    measured = (
+        made() if args.made else cases(args.folder, lambda text: print(text, file=sys.stderr))
+    )
     compare(measured, args, FIGURES)
 
 
@@ -147,14 +164,21 @@ def compare(measured: Iterator[tuple[str, Works]], args: argparse.Namespace, fig
         worse = max(new / old for new, old in zip(now, before, strict=True))
         slower += [name] if worse > args.most and not args.write else []
         found[name] = round(now[0], 2), round(now[1], 2)
-        print(f"{name:28} encoding {now[0]:7.1f}, decoding {now[1]:6.1f}; over the file {worse:.2f}", flush=True)
+        print(
+            f"{name:28} encoding {now[0]:7.1f}, decoding {now[1]:6.1f}; over the file {worse:.2f}",
+            flush=True,
+        )
     for what, at in (("encoding", 0), ("decoding", 1)) if found else ():
         values = [ratio[at] for ratio in found.values()]
         print(f"{what}: median {median(values):.1f}, worst {max(values):.1f} times Draco")
     if args.write:
         figures.write_text(json.dumps(found, indent=1) + "\n")
     if slower or (len(found) < len(known) / 2 and not args.made):
-        print(f"slower by more than {args.most:g}: {', '.join(slower)}" if slower else "too few meshes were fetched")
+        print(
+            f"slower by more than {args.most:g}: {', '.join(slower)}"
+            if slower
+            else "too few meshes were fetched"
+        )
         sys.exit(1)
 
 
@@ -165,7 +189,10 @@ def decoders(mesh: TriangleMesh, repeats: int) -> str:
 
     library = build("-O3", "-fno-math-errno")
     ours, theirs = Encoder(mesh, EncodeOptions()).encode(), encode_draco(mesh, 11, 10)
-    ways: list[Callable[[], object]] = [lambda: decode_draco(theirs), lambda: decode_in_c(library, ours)]
+    ways: list[Callable[[], object]] = [
+        lambda: decode_draco(theirs),
+        lambda: decode_in_c(library, ours),
+    ]
     if available_threads() > 1:
         ways.append(lambda: decode_in_c(library, ours, parallel=Parallel(2)))
     least = [math.inf] * len(ways)
@@ -175,7 +202,11 @@ def decoders(mesh: TriangleMesh, repeats: int) -> str:
             call()
             least[way] = min(least[way], time.perf_counter() - start)
     draco, alone, *pair = least
-    threads = f"two threads {pair[0] / alone:.2f}" if pair else "two threads not measured: pinned to one core"
+    threads = (
+        f"two threads {pair[0] / alone:.2f}"
+        if pair
+        else "two threads not measured: pinned to one core"
+    )
     return f"C {1e3 * alone:.1f} ms, Draco {1e3 * draco:.2f} ms: {alone / draco:.2f} x; {threads}"
 
 
@@ -192,9 +223,24 @@ def main() -> None:
     """Run the command."""
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("meshes", metavar="MESH", nargs="*", help="mesh file, for times of bsmdec")
-    parser.add_argument("--repeat", type=int, default=20, metavar="N", help="runs of bsmdec, the fastest counts (20)")
-    parser.add_argument("--folder", type=Path, default=Path("replicate/meshes"), help="where fetched packages are kept")
+    parser.add_argument(
+        "--repeat",
+        type=int,
+        default=20,
+        metavar="N",
+        help="runs of bsmdec, the fastest counts (20)",
+    )
+    parser.add_argument(
+        "--folder",
+        type=Path,
+        default=Path("replicate/meshes"),
+        help="where fetched packages are kept",
+    )
     parser.add_argument("--made", action="store_true", help="measure only what needs no fetching")
-    parser.add_argument("--most", type=float, default=MOST, metavar="X", help="largest ratio over speed.json (1.3)")
-    parser.add_argument("--write", action="store_true", help="write speed.json, which later runs are compared with")
+    parser.add_argument(
+        "--most", type=float, default=MOST, metavar="X", help="largest ratio over speed.json (1.3)"
+    )
+    parser.add_argument(
+        "--write", action="store_true", help="write speed.json, which later runs are compared with"
+    )
     run_command(parser, work)

@@ -55,17 +55,27 @@ def options_of(what: str, value: float) -> EncodeOptions:
     none = replace(PRESETS["none"], threads=1)
     if what == "look":
         return replace(none, contract=Contract(0.01, look=value, by_part=0.01))
-    return replace(none, contract=Contract(value)) if what == "max_error" else replace(none, target=Target(what, value))
+    return (
+        replace(none, contract=Contract(value))
+        if what == "max_error"
+        else replace(none, target=Target(what, value))
+    )
 
 
-def measured(mesh: TriangleMesh, targets: Mapping[str, tuple[float, ...]] = TARGETS) -> Iterator[Row]:
+def measured(
+    mesh: TriangleMesh, targets: Mapping[str, tuple[float, ...]] = TARGETS
+) -> Iterator[Row]:
     """The table of a mesh."""
     for what, values in targets.items():
         for value in values:
             begin, encoder = time.thread_time(), Encoder(mesh, options_of(what, value))
             found = encoder.result()
             seconds, compared = time.thread_time() - begin, found.comparison
-            reached = {"look": encoder.look, "bpv": found.bpv, "max_error": compared.max_error_relative}
+            reached = {
+                "look": encoder.look,
+                "bpv": found.bpv,
+                "max_error": compared.max_error_relative,
+            }
             used = reached.get(what, getattr(compared, what, 0.0)) or 0.0
             share = 10.0 ** ((used - value) / 10.0) if what == "nmsve_db" else used / value
             yield Row(what, value, found.size, round(share, 3), seconds)
@@ -85,10 +95,17 @@ def faults(rows: list[Row], known: list[int]) -> Iterator[str]:
 
 def work(args: argparse.Namespace, _: Console) -> None:
     """Print tables; without files, compare them with the file."""
-    known = json.loads(FIGURES.read_text()) if FIGURES.exists() and not args.meshes and not args.write else {}
+    known = (
+        json.loads(FIGURES.read_text())
+        if FIGURES.exists() and not args.meshes and not args.write
+        else {}
+    )
     meshes = [(Path(path).stem, read_mesh(path).mesh.bare) for path in args.meshes]
     found, wrong = dict[str, list[int]](), list[str]()
-    for name, mesh in meshes or [("made rope", knot(2000)), ("made scan", TriangleMesh(*made_shape(SCAN, 32)))]:
+    for name, mesh in meshes or [
+        ("made rope", knot(2000)),
+        ("made scan", TriangleMesh(*made_shape(SCAN, 32))),
+    ]:
         print(f"{name}, {len(mesh.positions)} vertices", flush=True)
         rows = []
         for row in measured(mesh):
@@ -107,5 +124,9 @@ def main() -> None:
     """Run the command."""
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("meshes", metavar="MESH", nargs="*", help="mesh file, for its table")
-    parser.add_argument("--write", action="store_true", help="write targets.json, which later runs are compared with")
+    parser.add_argument(
+        "--write",
+        action="store_true",
+        help="write targets.json, which later runs are compared with",
+    )
     run_command(parser, work)

@@ -44,7 +44,11 @@ def count_tokens(file: Path) -> int:
 
 def count_python(text: str) -> int:
     """Count the tokens of Python, without docstrings."""
-    words = [token for token in tokenize.generate_tokens(io.StringIO(text).readline) if token.type not in LAYOUT]
+    words = [
+        token
+        for token in tokenize.generate_tokens(io.StringIO(text).readline)
+        if token.type not in LAYOUT
+    ]
     # Python 3.12 cuts f-strings into pieces; older ones do not.
     begin, end = getattr(tokenize, "FSTRING_START", None), getattr(tokenize, "FSTRING_END", None)
     depth = count = 0
@@ -61,13 +65,21 @@ def count_python(text: str) -> int:
 def docstrings(text: str) -> list[ast.Expr]:
     """Return the statements that are a string alone: docstrings of modules, classes, functions and constants."""
     nodes = (node for node in ast.walk(ast.parse(text)) if isinstance(node, ast.Expr))
-    return [node for node in nodes if isinstance(node.value, ast.Constant) and isinstance(node.value.value, str)]
+    return [
+        node
+        for node in nodes
+        if isinstance(node.value, ast.Constant) and isinstance(node.value.value, str)
+    ]
 
 
 def comment_lines(text: str) -> list[int]:
     """The numbers of the lines of Python that are comments."""
     words = tokenize.generate_tokens(io.StringIO(text).readline)
-    return [word.start[0] for word in words if word.type == tokenize.COMMENT and word.line.lstrip().startswith("#")]
+    return [
+        word.start[0]
+        for word in words
+        if word.type == tokenize.COMMENT and word.line.lstrip().startswith("#")
+    ]
 
 
 def count_scanned(text: str) -> int:

@@ -51,11 +51,15 @@ class NotHere(RuntimeError):
 def emulator(folder: Path, name: str) -> str:
     """Find QEMU for a processor, or fetch it."""
     for program in (f"qemu-{name}-static", f"qemu-{name}"):
-        if found := shutil.which(program) or shutil.which(program, path=str(folder / "root/usr/bin")):
+        if found := shutil.which(program) or shutil.which(
+            program, path=str(folder / "root/usr/bin")
+        ):
             return found
     if shutil.which("apt-get") is None:
         raise NotHere(f"qemu-{name} is not here: install qemu-user-static")
-    got = subprocess.run(["apt-get", "download", "qemu-user-static"], cwd=folder, capture_output=True, check=False)
+    got = subprocess.run(
+        ["apt-get", "download", "qemu-user-static"], cwd=folder, capture_output=True, check=False
+    )
     for package in folder.glob("qemu-user-static_*.deb"):
         subprocess.run(["dpkg", "-x", package, folder / "root"], check=True)
     if got.returncode or not (folder / f"root/usr/bin/qemu-{name}-static").exists():
@@ -78,9 +82,19 @@ def zig(folder: Path) -> list[str]:
 def program(folder: Path, name: str, compiler: list[str], *flags: str) -> Path | None:
     """Compile the fingerprint for a processor; None if the library does not compile."""
     made = folder / f"fingerprint-{name}"
-    sources = ["-w", "-std=gnu11", f"-I{folder}", f"-I{ROOT}", str(FINGERPRINT), str(folder / "bsmdec.c")]
+    sources = [
+        "-w",
+        "-std=gnu11",
+        f"-I{folder}",
+        f"-I{ROOT}",
+        str(FINGERPRINT),
+        str(folder / "bsmdec.c"),
+    ]
     run = subprocess.run(
-        [*compiler, *flags, *sources, "-o", str(made), "-lm"], text=True, capture_output=True, check=False
+        [*compiler, *flags, *sources, "-o", str(made), "-lm"],
+        text=True,
+        capture_output=True,
+        check=False,
     )
     if run.returncode and "compile BSM with" not in run.stderr:
         raise RuntimeError(run.stderr)
@@ -102,7 +116,9 @@ def prepare(folder: Path) -> None:
     (folder / "bsmdec.h").write_text(interface())
 
 
-def complaint(folder: Path, name: str, expected: list[str], streams: list[Path], level: str) -> str | None:
+def complaint(
+    folder: Path, name: str, expected: list[str], streams: list[Path], level: str
+) -> str | None:
     """Say in what a target is not as it must be."""
     target = TARGETS[name]
     run = emulator(folder, target.qemu)
@@ -115,8 +131,16 @@ def complaint(folder: Path, name: str, expected: list[str], streams: list[Path],
     found = lines([run, str(made)], folder, streams)
     if target.refuses:
         return None if found and all(line.split()[1] == "5" for line in found) else "decodes"
-    different = [line for line, other in zip(expected, [*found, *[""] * len(expected)], strict=False) if line != other]
-    return f"{len(different)} of {len(expected)} differ, the first: {different[0].split()[0]}" if different else None
+    different = [
+        line
+        for line, other in zip(expected, [*found, *[""] * len(expected)], strict=False)
+        if line != other
+    ]
+    return (
+        f"{len(different)} of {len(expected)} differ, the first: {different[0].split()[0]}"
+        if different
+        else None
+    )
 
 
 def main() -> int:

@@ -34,16 +34,31 @@ from tools.release.windows import make_windows
 
 ROOT = Path(__file__).parents[2]
 PARTS = ("sdist", "wheels", "arm64", "others", "npm", "library")
-RELEASED = ("bsm_codec-*", "bsm-decoder-*", "bsmdec-*", "bsm-conformance-*", "SHA256SUMS", "NOTES.md")
+RELEASED = (
+    "bsm_codec-*",
+    "bsm-decoder-*",
+    "bsmdec-*",
+    "bsm-conformance-*",
+    "SHA256SUMS",
+    "NOTES.md",
+)
 """What a release consists of, and what an earlier one has left."""
 
 
 def main() -> None:
     """Make and check."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("-o", "--output", type=Path, default=ROOT / "dist", help="folder (default: dist)")
-    parser.add_argument("--only", nargs="+", choices=PARTS, default=PARTS, help="parts of it (default: all)")
-    parser.add_argument("--tests", nargs="+", default=["tests/bsm/test_api.py"], help="tests to run from the wheels")
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument(
+        "-o", "--output", type=Path, default=ROOT / "dist", help="folder (default: dist)"
+    )
+    parser.add_argument(
+        "--only", nargs="+", choices=PARTS, default=PARTS, help="parts of it (default: all)"
+    )
+    parser.add_argument(
+        "--tests", nargs="+", default=["tests/bsm/test_api.py"], help="tests to run from the wheels"
+    )
     args = parser.parse_args()
     version = check_versions(ROOT)
     output = args.output.resolve()
@@ -60,7 +75,9 @@ def main() -> None:
         print(f"{path.stat().st_size / 1e6:7.2f} MB  {path.name}")
 
 
-def make(output: Path, version: str, commit: Sequence[str], only: Sequence[str], tests: Sequence[str]) -> list[Path]:
+def make(
+    output: Path, version: str, commit: Sequence[str], only: Sequence[str], tests: Sequence[str]
+) -> list[Path]:
     """Make the parts, of a commit and in its time, and try the wheels."""
     name, os.environ["SOURCE_DATE_EPOCH"] = commit
     with tempfile.TemporaryDirectory() as folder:
@@ -68,12 +85,16 @@ def make(output: Path, version: str, commit: Sequence[str], only: Sequence[str],
         readme, source = sources / "README.md", address(sources)
         readme.write_text(with_absolute_links(readme.read_text(), source))
         if ".invalid/" in source:
-            say(f"note: name the repository in pyproject.toml before you publish; {source} is a placeholder")
+            say(
+                f"note: name the repository in pyproject.toml before you publish; {source} is a placeholder"
+            )
         made = []
         if set(only) & {"sdist", "wheels", "arm64", "others"}:
             made.append(make_sdist(sources, output))
         found = pythons()
-        builders = [found[version] for version in sorted({min(found), min(v for v in found if v >= STABLE)})]
+        builders = [
+            found[version] for version in sorted({min(found), min(v for v in found if v >= STABLE)})
+        ]
         for target, part in zip(LINUX, ("wheels", "arm64"), strict=True):
             if part in only:
                 made += [make_wheel(made[0], python, target, output) for python in builders]
@@ -86,12 +107,17 @@ def make(output: Path, version: str, commit: Sequence[str], only: Sequence[str],
                 say(f"trying Python {number[0]}.{number[1]}")
                 wheel = next(path for path in made if fits(path, number))
                 try_wheel(wheel, python, sources, list(tests))
-                try_newcomer(wheel, (sources / "docs/install.md").read_text(), sources / STREAM, python)
+                try_newcomer(
+                    wheel, (sources / "docs/install.md").read_text(), sources / STREAM, python
+                )
             made.append(make_list(made[1], builders[0], output))
         if "npm" in only:
             made.append(make_npm(sources, ROOT, output))
         if "library" in only:
-            made += [part(sources, version, output) for part in (make_archive, make_windows, make_crate, make_suite)]
+            made += [
+                part(sources, version, output)
+                for part in (make_archive, make_windows, make_crate, make_suite)
+            ]
     return made
 
 
@@ -101,10 +127,20 @@ def make_list(wheel: Path, python: Path, output: Path) -> Path:
     with tempfile.TemporaryDirectory() as folder:
         subprocess.run([python, "-m", "venv", folder], check=True, env=clean())
         installed = Path(folder, "bin/python")
-        install: list[str | Path] = [installed, "-m", "pip", "install", "-q", "--disable-pip-version-check", wheel]
+        install: list[str | Path] = [
+            installed,
+            "-m",
+            "pip",
+            "install",
+            "-q",
+            "--disable-pip-version-check",
+            wheel,
+        ]
         subprocess.run(install, check=True, env=clean())
         options: list[str | Path] = ["--output-reproducible", "-o", target, installed]
-        subprocess.run([sys.executable, "-m", "cyclonedx_py", "environment", *options], check=True, env=clean())
+        subprocess.run(
+            [sys.executable, "-m", "cyclonedx_py", "environment", *options], check=True, env=clean()
+        )
     return target
 
 
@@ -115,7 +151,9 @@ def digest(path: Path) -> str:
 
 def git(*command: str) -> str:
     """What git says of the checkout."""
-    return subprocess.run(["git", *command], cwd=ROOT, capture_output=True, text=True, check=True).stdout
+    return subprocess.run(
+        ["git", *command], cwd=ROOT, capture_output=True, text=True, check=True
+    ).stdout
 
 
 def exported(commit: str, folder: Path) -> Path:

@@ -25,7 +25,13 @@ def main(words: Sequence[str] | None = None) -> None:
     """Make the zip and say where it is."""
     parser = argparse.ArgumentParser(prog="python -m tools.release.blender", description=__doc__)
     parser.add_argument("-o", "--output", type=Path, default=Path("bsm-blender.zip"))
-    parser.add_argument("--wheel", type=Path, action="append", default=[], help="put in these wheels, and build none")
+    parser.add_argument(
+        "--wheel",
+        type=Path,
+        action="append",
+        default=[],
+        help="put in these wheels, and build none",
+    )
     args = parser.parse_args(words)
     with _wheels(args.wheel) as wheels:
         make_zip(args.output, wheels)
@@ -40,7 +46,10 @@ def _wheels(given: list[Path]) -> Iterator[list[Path]]:
     with tempfile.TemporaryDirectory() as folder:
         pip = [sys.executable, "-m", "pip"]  # which says what it does: compiling takes minutes
         subprocess.run([*pip, "wheel", "--no-deps", "-w", folder, str(ROOT)], check=True)
-        subprocess.run([*pip, "download", "--no-deps", "--only-binary", ":all:", "-d", folder, "msgpack"], check=True)
+        subprocess.run(
+            [*pip, "download", "--no-deps", "--only-binary", ":all:", "-d", folder, "msgpack"],
+            check=True,
+        )
         yield sorted(Path(folder).glob("*.whl"))
 
 

@@ -58,18 +58,26 @@ FOREIGN = (
 
 def clean() -> dict[str, str]:
     """The environment without what points to this checkout."""
-    return {name: value for name, value in os.environ.items() if name not in ("PYTHONPATH", "VIRTUAL_ENV")}
+    return {
+        name: value
+        for name, value in os.environ.items()
+        if name not in ("PYTHONPATH", "VIRTUAL_ENV")
+    }
 
 
 def zig(folder: Path, *words: str) -> None:
     """Run Zig in a folder."""
-    subprocess.run([sys.executable, "-I", "-m", "ziglang", *words], cwd=folder, check=True, env=clean())
+    subprocess.run(
+        [sys.executable, "-I", "-m", "ziglang", *words], cwd=folder, check=True, env=clean()
+    )
 
 
 def compilers(folder: Path, target: Target, python: Path) -> dict[str, str]:
     """Compilers for a target, and what makes Python's tools believe in it."""
     code = "import sysconfig; print(sysconfig.get_config_var('EXT_SUFFIX'), sysconfig.get_path('include'))"
-    run = subprocess.run([python, "-c", code], capture_output=True, text=True, check=True, env=clean())
+    run = subprocess.run(
+        [python, "-c", code], capture_output=True, text=True, check=True, env=clean()
+    )
     suffix, include = run.stdout.split()
     flags = [f"-DCMAKE_SYSTEM_NAME={target.system}", f"-DCMAKE_SYSTEM_PROCESSOR={target.processor}"]
     # This machine's programs do not know such files; CMake has no names to change in them.
@@ -78,11 +86,18 @@ def compilers(folder: Path, target: Target, python: Path) -> dict[str, str]:
         flags += _python_for_windows(folder, target, Path(include))
     # Zig's headers for C++ do not bring stdio.h along, as GNU's do.
     compiled = f"-target {target.zig} -include stdio.h"
-    programs = {"C_COMPILER": f"cc {compiled}", "CXX_COMPILER": f"c++ {compiled}", "AR": "ar", "RANLIB": "ranlib"}
+    programs = {
+        "C_COMPILER": f"cc {compiled}",
+        "CXX_COMPILER": f"c++ {compiled}",
+        "AR": "ar",
+        "RANLIB": "ranlib",
+    }
     for name, program in programs.items():
         path = folder / f"zig-{name.lower()}"
         # -I: pip's isolation hides this environment's libraries from programs of the same Python.
-        path.write_text(f'#!/bin/sh\n{_FOR_MACOS}exec "{sys.executable}" -I -m ziglang {program} "$@"\n')
+        path.write_text(
+            f'#!/bin/sh\n{_FOR_MACOS}exec "{sys.executable}" -I -m ziglang {program} "$@"\n'
+        )
         path.chmod(path.stat().st_mode | stat.S_IXUSR)
         flags.append(f"-DCMAKE_{name}={path}")
     return {
@@ -110,14 +125,20 @@ def of_stable_abi() -> list[str]:
     abi3info: Any = importlib.import_module("abi3info")
     named = ((abi3info.FUNCTIONS, ""), (abi3info.DATAS, " DATA"))
     items = [(item, end) for table, end in named for item in table.values()]
-    return sorted(f"{item.symbol.name}{end}" for item, end in items if (item.added.major, item.added.minor) <= STABLE)
+    return sorted(
+        f"{item.symbol.name}{end}"
+        for item, end in items
+        if (item.added.major, item.added.minor) <= STABLE
+    )
 
 
 def _python_for_windows(folder: Path, target: Target, include: Path) -> list[str]:
     """Headers, and import libraries of the stable ABI from its list: this Python's own are for Linux."""
     headers = shutil.copytree(include, folder / "include")
     (headers / "pyconfig.h").write_text(PYCONFIG)
-    (folder / "python3.def").write_text("\n".join(["LIBRARY python3.dll", "EXPORTS", *of_stable_abi(), ""]))
+    (folder / "python3.def").write_text(
+        "\n".join(["LIBRARY python3.dll", "EXPORTS", *of_stable_abi(), ""])
+    )
     machine = {"x86_64": "i386:x86-64", "aarch64": "arm64"}[target.processor]
     zig(folder, "dlltool", "-m", machine, "-d", "python3.def", "-l", "python3.lib")
     usual = shutil.copy(folder / "python3.lib", folder / f"{include.name.replace('.', '')}.lib")

@@ -44,7 +44,10 @@ def make_archive(sources: Path, version: str, output: Path) -> Path:
             shutil.copy(sources / "library" / name, inside)
         shutil.copy(sources / "LICENSE", inside)
         (inside / "README.md").write_text(README)
-        path = archive(output / f"{inside.name}.tar.gz", [(f"{inside.name}/{f.name}", f) for f in inside.iterdir()])
+        path = archive(
+            output / f"{inside.name}.tar.gz",
+            [(f"{inside.name}/{f.name}", f) for f in inside.iterdir()],
+        )
         _try_archive(inside, sources / STREAM)
     try_newcomer(path, README, sources / STREAM)
     return path
@@ -63,12 +66,18 @@ def make_crate(sources: Path, version: str, output: Path) -> Path:
 def make_suite(sources: Path, version: str, output: Path) -> Path:
     """All vectors, their list and what it means, by which any decoder can be judged."""
     vectors = sources / "spec/vectors"
-    listed = [vector for each in vectors.glob("*/manifest.json") for vector in json.loads(each.read_text())["vectors"]]
+    listed = [
+        vector
+        for each in vectors.glob("*/manifest.json")
+        for vector in json.loads(each.read_text())["vectors"]
+    ]
     names = [str(path.relative_to(vectors)) for path in vectors.rglob("*") if path.is_file()]
     if len(listed) != sum(name.endswith(".bsm") for name in names):
         raise SystemExit("the lists of vectors do not name all streams")
     inside = f"bsm-conformance-{version}"
-    return archive(output / f"{inside}.tar.gz", [(f"{inside}/{name}", vectors / name) for name in names])
+    return archive(
+        output / f"{inside}.tar.gz", [(f"{inside}/{name}", vectors / name) for name in names]
+    )
 
 
 def archive(path: Path, files: Iterable[tuple[str, Path]]) -> Path:
@@ -77,7 +86,10 @@ def archive(path: Path, files: Iterable[tuple[str, Path]]) -> Path:
     with tarfile.open(fileobj=plain, mode="w", format=tarfile.PAX_FORMAT) as tar:
         for name, file in sorted(files):
             entry = tarfile.TarInfo(name)
-            entry.size, entry.mtime = file.stat().st_size, int(os.environ.get("SOURCE_DATE_EPOCH", "0"))
+            entry.size, entry.mtime = (
+                file.stat().st_size,
+                int(os.environ.get("SOURCE_DATE_EPOCH", "0")),
+            )
             with file.open("rb") as content:
                 tar.addfile(entry, content)
     path.write_bytes(gzip.compress(plain.getvalue(), mtime=0))
@@ -101,7 +113,9 @@ def _try_archive(inside: Path, stream: Path) -> None:
     _run([prefix / "bin/bsmdec", stream, "installed.obj"], made)
     _run([prefix / "bin/bsmenc", "alone.obj", "again.bsm", "0"], made)
     _run([made / "alone", "again.bsm", "again.obj"], made)
-    alone, installed, again = ((made / f"{name}.obj").read_bytes() for name in ("alone", "installed", "again"))
+    alone, installed, again = (
+        (made / f"{name}.obj").read_bytes() for name in ("alone", "installed", "again")
+    )
     if alone != installed or again.count(b"\nf ") != 4:
         raise SystemExit("the library does not decode a tetrahedron alike alone and installed")
 

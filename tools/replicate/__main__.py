@@ -15,7 +15,16 @@ from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
 FOR_PAPER = ("bsm._core", "matplotlib", "zstandard", "pymetis", "threadpoolctl", "DracoPy")
-NEEDED = ("bsm._core", "matplotlib", "DracoPy", "zstandard", "pymetis", "flip_evaluator", "ssimulacra2", "pymeshlab")
+NEEDED = (
+    "bsm._core",
+    "matplotlib",
+    "DracoPy",
+    "zstandard",
+    "pymetis",
+    "flip_evaluator",
+    "ssimulacra2",
+    "pymeshlab",
+)
 MINUTES = {
     "rates": 16.0,
     "outside": 8.0,
@@ -25,7 +34,15 @@ MINUTES = {
     "denoising": 7.0,
     "paper": 25.0,
 }
-QUICK = {"rates": 2.0, "outside": 1.0, "ablation": 1.5, "times": 0.5, "motion": 0.8, "denoising": 0.5, "paper": 4.0}
+QUICK = {
+    "rates": 2.0,
+    "outside": 1.0,
+    "ablation": 1.5,
+    "times": 0.5,
+    "motion": 0.8,
+    "denoising": 0.5,
+    "paper": 4.0,
+}
 LONGEST = 60.0
 """Minutes that verdicts or shares may take."""
 STAGES = tuple(MINUTES)
@@ -57,9 +74,26 @@ JOBS = {
 }
 """What each job measures."""
 PRINTED = {
-    **{"1": "number-of-segments", "2": "overlap", "3": "overlap", "4": "overlap", "5": "coherence", "6": "times"},
-    **{"7": "powers", "figure-4": "edge-effect", "figure-5": "edge-effect", "figure-8": "coherence"},
-    **{"figure-11": "rate-and-error", "figure-12": "dynamic", "figure-13": "coarse-to-fine", "figure-14": "rivals"},
+    **{
+        "1": "number-of-segments",
+        "2": "overlap",
+        "3": "overlap",
+        "4": "overlap",
+        "5": "coherence",
+        "6": "times",
+    },
+    **{
+        "7": "powers",
+        "figure-4": "edge-effect",
+        "figure-5": "edge-effect",
+        "figure-8": "coherence",
+    },
+    **{
+        "figure-11": "rate-and-error",
+        "figure-12": "dynamic",
+        "figure-13": "coarse-to-fine",
+        "figure-14": "rivals",
+    },
     **{"figure-16": "powers", "cost": "complexity", "delta": "shifts"},
     **{name: name for name in JOBS},
 }
@@ -81,7 +115,9 @@ def environment(folder: Path, needed: tuple[str, ...]) -> None:
     print(f"missing here: {', '.join(missing)}; {where}", flush=True)
     if not python.exists():
         subprocess.run([sys.executable, "-m", "venv", str(python.parents[1])], check=True)
-    subprocess.run([str(python), "-m", "pip", "install", "-q", "-e", f"{ROOT}[eval,replicate]"], check=True)
+    subprocess.run(
+        [str(python), "-m", "pip", "install", "-q", "-e", f"{ROOT}[eval,replicate]"], check=True
+    )
     os.execv(python, [str(python), "-m", "tools.replicate", *sys.argv[1:]])
 
 
@@ -96,10 +132,20 @@ def listed_jobs() -> list[str]:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("meshes", nargs="*", metavar="MESH", type=Path, help="your own meshes in place of all others")
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument(
+        "meshes",
+        nargs="*",
+        metavar="MESH",
+        type=Path,
+        help="your own meshes in place of all others",
+    )
     parser.add_argument("-o", "--output", metavar="FOLDER", type=Path, default=Path("replicate"))
-    parser.add_argument("--quick", action="store_true", help="ten minutes: as many meshes as fit, of all sizes")
+    parser.add_argument(
+        "--quick", action="store_true", help="ten minutes: as many meshes as fit, of all sizes"
+    )
     parser.add_argument("--figure", choices=STAGES, help="only this table and figure")
     about = "of --figure paper, only this table or figure of the paper, or this job of --list"
     parser.add_argument("--table", choices=PRINTED, metavar="NAME", help=about)
@@ -108,7 +154,9 @@ def main() -> None:
     shared = "of --figure paper, count what blocks carry in default streams of each MESH, and do without them"
     parser.add_argument("--shares", action="store_true", help=shared)
     parser.add_argument("--list", action="store_true", help="list the jobs of --figure paper")
-    parser.add_argument("--docs", action="store_true", help="put the tables into docs/measured.md, too")
+    parser.add_argument(
+        "--docs", action="store_true", help="put the tables into docs/measured.md, too"
+    )
     args = parser.parse_args()
     if args.list:
         print("\n".join(listed_jobs()))
@@ -117,12 +165,16 @@ def main() -> None:
         parser.error("--table is of the paper: add --figure paper")
     alone = args.verdicts or args.shares
     if alone and (args.figure != "paper" or not args.meshes or args.table):
-        parser.error("--verdicts and --shares take named meshes: add --figure paper and the meshes, without --table")
+        parser.error(
+            "--verdicts and --shares take named meshes: add --figure paper and the meshes, without --table"
+        )
     if args.meshes and args.figure not in (None, "rates", "paper"):
         parser.error(f"--figure {args.figure} takes no meshes; rates and paper do")
     too_few = 0 < len(args.meshes) < 5 and PRINTED.get(args.table) == "coherence"
     if too_few and not os.environ.get("BSM_MESHES"):
-        parser.error("it compares five models: name five, or let BSM_MESHES name a folder with those of the paper")
+        parser.error(
+            "it compares five models: name five, or let BSM_MESHES name a folder with those of the paper"
+        )
     if missing := [str(path) for path in args.meshes if not path.exists()]:
         parser.error(f"no such file: {', '.join(missing)}")
     args.output.mkdir(parents=True, exist_ok=True)

@@ -67,10 +67,14 @@ TOOLS: dict[str, Tool] = {
     "blocks (only grids)": Tool({}, [(search, "ways_of", _ways("levels", "blocks"))]),
     "grids (only blocks with refinement)": Tool({}, [(search, "ways_of", _ways(*GRIDS))]),
     "grids that models were made on": Tool({}, [(search, "ways_of", _ways("made"))]),
-    "choice of grid places by rate": Tool({}, [(search, "ways_of", _ways("chosen", "rows, chosen"))]),
+    "choice of grid places by rate": Tool(
+        {}, [(search, "ways_of", _ways("chosen", "rows, chosen"))]
+    ),
     "choice of refinement by rate": Tool({}, [(blocks, "PULLED", 1e-9)]),
     "frames along normals": Tool(
-        {}, [(coding, "local_frames", lambda places, _: UPRIGHT.repeat(len(places), axis=0))], decodes=False
+        {},
+        [(coding, "local_frames", lambda places, _: UPRIGHT.repeat(len(places), axis=0))],
+        decodes=False,
     ),
     "unfolding of faces": Tool({}, [(blocks, "UNFOLDED", 0)]),
     "overlap of 5 % (not in the default)": Tool({"overlap": 1.05}),
@@ -119,18 +123,27 @@ def ablate_mesh(source: Source) -> Row:
         found[name] = {"bytes": without / size}
         if data is not None and other is not None:
             found[name]["decode"] = 1.0 if other == data else _decode_ratio(other, data)
-    return {"mesh": source.name, "group": source.group, "vertices": len(mesh.positions), "tools": found}
+    return {
+        "mesh": source.name,
+        "group": source.group,
+        "vertices": len(mesh.positions),
+        "tools": found,
+    }
 
 
 def _decode_ratio(first: bytes, second: bytes) -> float:
     """Seconds to decode one over those for another, by turns."""
-    seconds = by_turns({str(k): partial(decode, data, threads=1) for k, data in enumerate((first, second))})
+    seconds = by_turns(
+        {str(k): partial(decode, data, threads=1) for k, data in enumerate((first, second))}
+    )
     return seconds["0"] / seconds["1"]
 
 
 MOVING_TOOLS: dict[str, Tool] = {
     "prediction of groups of 16 frames": Tool(
-        {"gop": 16}, [(gop.GopEncoder, "method_with_basis", lambda *_: GopMethod.LEARNT)], against={"gop": 16}
+        {"gop": 16},
+        [(gop.GopEncoder, "method_with_basis", lambda *_: GopMethod.LEARNT)],
+        against={"gop": 16},
     ),
     "temporal basis of whole groups (8 frames at a time)": Tool({"low_delay": 8}),
     "frames evened by visible error": Tool({}, [(step_search, "_evening", np.ones_like)]),
@@ -143,7 +156,13 @@ def ablate_motion(frames: Any, faces: Any) -> dict[str, float]:
 
     def size(**changes: Any) -> int:
         options = sequence_options(threads=1, look=1.0, **changes)
-        return len(b"".join(SequenceEncoder(faces, replace(options, frame_rate=25.0), len(frames)).chunks(frames)))
+        return len(
+            b"".join(
+                SequenceEncoder(faces, replace(options, frame_rate=25.0), len(frames)).chunks(
+                    frames
+                )
+            )
+        )
 
     found, whole = {}, size()
     for name, tool in MOVING_TOOLS.items():
@@ -165,14 +184,19 @@ def ablation_table(rows: Sequence[Row]) -> list[tuple[str, ...]]:
     """A line for each tool: bytes over those of everything, of how many the stream is another one, decoding time."""
     found = []
     for name in TOOLS:
-        entries = [(row["tools"][name], row) for row in rows if "bytes" in row["tools"].get(name, {})]
+        entries = [
+            (row["tools"][name], row) for row in rows if "bytes" in row["tools"].get(name, {})
+        ]
         if not entries:
             continue
         _, _, *cells = spread(name, "", [(entry["bytes"], row["mesh"]) for entry, row in entries])
         blocks = [entry["bytes"] for entry, row in entries if in_blocks(row)]
         other = [entry for entry, _ in entries if entry["bytes"] != 1.0]
         times = [entry["decode"] for entry in other if "decode" in entry]
-        mean, seconds = (f"{of(numbers):.3f}" if numbers else "-" for of, numbers in ((fmean, blocks), (median, times)))
+        mean, seconds = (
+            f"{of(numbers):.3f}" if numbers else "-"
+            for of, numbers in ((fmean, blocks), (median, times))
+        )
         found.append((name, *cells, str(len(other)), mean, seconds))
     return found
 
@@ -185,8 +209,14 @@ def in_blocks(row: Row) -> bool:
 def ablation_note(rows: Sequence[Row]) -> str:
     """What the table counts, and which tools save little."""
     lines = ablation_table(rows)
-    little = [line[0] for line in lines if float(line[2]) < LITTLE and not line[0].endswith("default)")]
-    idle = [line[0] for line in lines if line[-2] != "-" and float(line[-2]) < LITTLE and line[0] in little]
+    little = [
+        line[0] for line in lines if float(line[2]) < LITTLE and not line[0].endswith("default)")
+    ]
+    idle = [
+        line[0]
+        for line in lines
+        if line[-2] != "-" and float(line[-2]) < LITTLE and line[0] in little
+    ]
     vertices = [row["vertices"] for row in rows]
     return (
         f"{len(rows)} fetched meshes, of {min(vertices):,} to {max(vertices):,} vertices. "

@@ -50,7 +50,10 @@ KINDS: dict[str, Callable[[Positions, Faces], Positions]] = {
     "rounded": lambda positions, faces: rounded(positions, faces, 0.5 * LEVEL, SEED),
     "half clean": lambda positions, faces: gaussian_in_part(positions, faces, LEVEL, 0.5, SEED),
 }
-GUIDED = {"guided": Filter("none", 0.1, 0.35, "patches"), "paper": Filter("positions", 0.1, 0.35, "patches")}
+GUIDED = {
+    "guided": Filter("none", 0.1, 0.35, "patches"),
+    "paper": Filter("positions", 0.1, 0.35, "patches"),
+}
 WIDTH = 0.35  # of the bilateral filter of normals
 FIXED_ITERATIONS = {"guided": (5, 20), "paper": (5, 20), "bilateral normal": (10,)}
 MOST, PATIENCE = 60, 5
@@ -76,18 +79,29 @@ def denoise_mesh(source: Source) -> Row:
     facts = {"mesh": source.name, "group": source.group, "vertices": source.vertices}
     if source.group == "pairs":
         mesh = read_mesh(source.path).mesh
-        clean = read_mesh(source.path.parents[1] / "static" / f"{PAIRS[source.name]}.ply").mesh.positions
-        return facts | {"pair": against_oracle(mesh.positions, mesh.faces, Reference(clean, mesh.faces).theta)}
+        clean = read_mesh(
+            source.path.parents[1] / "static" / f"{PAIRS[source.name]}.ply"
+        ).mesh.positions
+        return facts | {
+            "pair": against_oracle(mesh.positions, mesh.faces, Reference(clean, mesh.faces).theta)
+        }
     mesh = source.mesh()
     clean, faces = mesh.positions, mesh.faces
     reference = Reference(clean, faces)
     same = denoise_automatically(clean, faces)[0]
-    found: Row = {"turned": Reference(clean, faces).theta(same), "untouched": bool((same == clean).all())}
+    found: Row = {
+        "turned": Reference(clean, faces).theta(same),
+        "untouched": bool((same == clean).all()),
+    }
     found["kinds"] = {}
     for kind, make in KINDS.items():
         noisy = make(clean, faces)
         best = min(best_fixed(noisy, faces, reference), reference.theta(noisy))
-        found["kinds"][kind] = {"noisy": reference.theta(noisy), "rival": best, **ours(noisy, faces, reference.theta)}
+        found["kinds"][kind] = {
+            "noisy": reference.theta(noisy),
+            "rival": best,
+            **ours(noisy, faces, reference.theta),
+        }
     found["white"] = against_oracle(KINDS["white"](clean, faces), faces, reference.theta)
     found["scans"] = {}
     for camera, model in CAMERAS.items():
@@ -108,7 +122,10 @@ def ours(noisy: Positions, faces: Faces, angle_of: Callable[[Positions], float])
     nothing was filtered."""
     result, choice = denoise_automatically(noisy, faces)
     known = choice.steps and choice.reliable
-    return {"ours": angle_of(result), "estimate": [choice.expected, choice.at_most] if known else None}
+    return {
+        "ours": angle_of(result),
+        "estimate": [choice.expected, choice.at_most] if known else None,
+    }
 
 
 def rivals(noisy: Positions, faces: Faces) -> dict[str, Iterator[Positions]]:
@@ -116,8 +133,13 @@ def rivals(noisy: Positions, faces: Faces) -> dict[str, Iterator[Positions]]:
     surface = Filters(faces, len(noisy))
     filtered, topology = Filtered(noisy, surface), surface.topology
     normals = bilateral_normals(noisy, topology, WIDTH)
-    followed = (follow_normals(noisy, topology, each, VERTEX_ITERATIONS, ~topology.boundary) for each in normals)
-    return {name: filtered.iterates(rival) for name, rival in GUIDED.items()} | {"bilateral normal": followed}
+    followed = (
+        follow_normals(noisy, topology, each, VERTEX_ITERATIONS, ~topology.boundary)
+        for each in normals
+    )
+    return {name: filtered.iterates(rival) for name, rival in GUIDED.items()} | {
+        "bilateral normal": followed
+    }
 
 
 def best_fixed(noisy: Positions, faces: Faces, reference: Reference) -> float:
@@ -133,7 +155,9 @@ def best_fixed(noisy: Positions, faces: Faces, reference: Reference) -> float:
 
 def in_motion(clean: npt.NDArray[np.float64], faces: Faces) -> dict[str, float]:
     """Errors of a sequence that is denoised as one, over those of its frames one by one."""
-    noisy = np.stack([gaussian_along_normals(frame, faces, LEVEL, seed) for seed, frame in enumerate(clean)])
+    noisy = np.stack(
+        [gaussian_along_normals(frame, faces, LEVEL, seed) for seed, frame in enumerate(clean)]
+    )
     alone = np.stack([denoise_automatically(frame, faces)[0] for frame in noisy])
     together = np.stack(list(FrameDenoiser(noisy[0], faces)(noisy)))
     measures: dict[str, Callable[[Positions], float]] = {
@@ -150,7 +174,9 @@ def flicker(clean: Positions, frames: Positions, faces: Faces) -> float:
     """Mean length of the second difference in time of what differs from the clean frames, in mean edges."""
     error = frames - clean
     trembling = error[2:] - 2.0 * error[1:-1] + error[:-2]
-    return float(np.sqrt(np.square(trembling).sum(axis=2)).mean()) / mean_edge_length(clean[0], faces)
+    return float(np.sqrt(np.square(trembling).sum(axis=2)).mean()) / mean_edge_length(
+        clean[0], faces
+    )
 
 
 def _best(run: Iterator[Positions], angle_of: Callable[[Positions], float]) -> float:
@@ -177,15 +203,32 @@ def denoising_table(rows: Sequence[Row]) -> list[tuple[str, ...]]:
     for label, rival, entries in (
         *((kind, "fixed", [(row["kinds"][kind], row) for row in rows]) for kind in KINDS),
         ("white", "oracle", [(row["white"], row) for row in rows]),
-        *((c, "oracle", [(row["scans"][c], row) for row in rows if c in row["scans"]]) for c in CAMERAS),
+        *(
+            (c, "oracle", [(row["scans"][c], row) for row in rows if c in row["scans"]])
+            for c in CAMERAS
+        ),
     ):
         if entries:
-            found.append(spread(label, rival, [(e["ours"] / max(e["rival"], 1e-9), row["mesh"]) for e, row in entries]))
-    every = [(entry, row) for row in rows for entry in row["kinds"].values() if entry.get("estimate")]
+            found.append(
+                spread(
+                    label,
+                    rival,
+                    [(e["ours"] / max(e["rival"], 1e-9), row["mesh"]) for e, row in entries],
+                )
+            )
+    every = [
+        (entry, row) for row in rows for entry in row["kinds"].values() if entry.get("estimate")
+    ]
     if every:
-        found.append(spread("all", "estimates", [(missed(entry), row["mesh"]) for entry, row in every]))
-    moving = {name: [(row["frames"][name], row["mesh"]) for row in rows] for name in rows[0]["frames"]}
-    return found + [spread(f"{name} of sequences", "frames", values) for name, values in moving.items()]
+        found.append(
+            spread("all", "estimates", [(missed(entry), row["mesh"]) for entry, row in every])
+        )
+    moving = {
+        name: [(row["frames"][name], row["mesh"]) for row in rows] for name in rows[0]["frames"]
+    }
+    return found + [
+        spread(f"{name} of sequences", "frames", values) for name, values in moving.items()
+    ]
 
 
 def missed(entry: Row) -> float:
@@ -216,7 +259,9 @@ def pairs_table(rows: Sequence[Row]) -> list[tuple[str, ...]]:
         (
             row["mesh"],
             *(f"{row['pair'][k]:.2f}" for k in ("noisy", "rival", "ours")),
-            " to ".join(dict.fromkeys(f"{angle:.1f}" for angle in row["pair"].get("estimate") or ())),
+            " to ".join(
+                dict.fromkeys(f"{angle:.1f}" for angle in row["pair"].get("estimate") or ())
+            ),
         )
         for row in rows
         if row["group"] == "pairs"

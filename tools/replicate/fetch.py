@@ -52,7 +52,9 @@ def fetch_meshes(folder: Path, note: Callable[[str], None], listing: Path = LIST
         for row in package["meshes"]:
             path = root / row["path"]
             if not path.exists() or hashlib.sha256(path.read_bytes()).hexdigest() != row["sha256"]:
-                note(f"missing: {package['package']}: {row['path']}, or another file than that of the list")
+                note(
+                    f"missing: {package['package']}: {row['path']}, or another file than that of the list"
+                )
                 continue
             found.append(Source(row["name"], path, row["group"], row["vertices"]))
     return sorted(found, key=lambda source: (source.vertices, source.name))
@@ -78,7 +80,19 @@ def unpacked(package: dict[str, Any], root: Path) -> None:
     name, version = package["package"], package["version"]
     if package["registry"] == "pypi":
         pip = [sys.executable, "-m", "pip"] if importlib.util.find_spec("pip") else ["pip"]
-        _run([*pip, "download", "-q", "--no-deps", "--only-binary", ":all:", "-d", beside, f"{name}=={version}"])
+        _run(
+            [
+                *pip,
+                "download",
+                "-q",
+                "--no-deps",
+                "--only-binary",
+                ":all:",
+                "-d",
+                beside,
+                f"{name}=={version}",
+            ]
+        )
         with zipfile.ZipFile(next(beside.glob("*.whl"))) as wheel:
             wheel.extractall(beside)
     elif package["registry"] == "npm":

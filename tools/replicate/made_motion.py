@@ -42,10 +42,15 @@ def cloth(frames: int = 120, rows: int = 60, columns: int = 80) -> tuple[Positio
     return np.array(found), _grid_faces(rows, columns, closed=False)
 
 
-def _spring(place: Matrix, down: int, right: int) -> tuple[tuple[slice, slice], tuple[slice, slice], Matrix]:
+def _spring(
+    place: Matrix, down: int, right: int
+) -> tuple[tuple[slice, slice], tuple[slice, slice], Matrix]:
     """Both ends and the lengths, in the plane, of springs between vertices so far apart in the grid."""
     rows, columns = place.shape[:2]
-    first = slice(max(0, -down), rows - max(0, down)), slice(max(0, -right), columns - max(0, right))
+    first = (
+        slice(max(0, -down), rows - max(0, down)),
+        slice(max(0, -right), columns - max(0, right)),
+    )
     second = slice(max(0, down), rows + min(0, down)), slice(max(0, right), columns + min(0, right))
     return first, second, np.linalg.norm((place[second] - place[first])[..., :2], axis=-1)
 
@@ -54,7 +59,11 @@ def _pull(place: Matrix, time: float) -> Matrix:
     """Acceleration by weight and by wind that comes in waves."""
     normals = np.cross(np.gradient(place, axis=0), np.gradient(place, axis=1))
     normals /= np.linalg.norm(normals, axis=-1, keepdims=True) + 1e-12
-    gusts = 6.0 * np.sin(0.17 * time) + 4.0 * np.sin(0.53 * time) + 2.0 * np.sin(3.0 * place[..., 0] + 0.4 * time)
+    gusts = (
+        6.0 * np.sin(0.17 * time)
+        + 4.0 * np.sin(0.53 * time)
+        + 2.0 * np.sin(3.0 * place[..., 0] + 0.4 * time)
+    )
     across = np.full_like(gusts, 1.5 * np.sin(0.11 * time))
     wind = np.stack([across, np.full_like(gusts, 0.3 * np.sin(0.31 * time)), gusts], axis=-1)
     pushed: Matrix = 1.2 * normals * np.einsum("...i,...i", normals, wind)[..., None]
@@ -65,11 +74,22 @@ def _pull(place: Matrix, time: float) -> Matrix:
 def violent(frames: int = 90, rows: int = 96, columns: int = 60) -> tuple[Positions, Faces]:
     """A torus that is twisted, bent, dented and thrown: shape (T, n, 3)."""
     random = np.random.default_rng(7)
-    u, v = np.meshgrid(2 * np.pi * np.arange(rows) / rows, 2 * np.pi * np.arange(columns) / columns, indexing="ij")
+    u, v = np.meshgrid(
+        2 * np.pi * np.arange(rows) / rows, 2 * np.pi * np.arange(columns) / columns, indexing="ij"
+    )
     ring = 1.0 + 0.4 * np.cos(v)
-    shape = 0.35 * np.stack([ring * np.cos(u), ring * np.sin(u), 0.4 * np.sin(v)], axis=-1).reshape(-1, 3)
-    directions, middles = random.standard_normal((14, 3)), shape[random.integers(len(shape), size=14)]
-    phases, pace, widths = 6.3 * random.random(14), random.uniform(0.15, 0.9, 14), random.uniform(0.08, 0.3, 14)
+    shape = 0.35 * np.stack([ring * np.cos(u), ring * np.sin(u), 0.4 * np.sin(v)], axis=-1).reshape(
+        -1, 3
+    )
+    directions, middles = (
+        random.standard_normal((14, 3)),
+        shape[random.integers(len(shape), size=14)],
+    )
+    phases, pace, widths = (
+        6.3 * random.random(14),
+        random.uniform(0.15, 0.9, 14),
+        random.uniform(0.08, 0.3, 14),
+    )
     reach = np.exp(-np.square(shape[:, None] - middles).sum(axis=2) / widths**2)
     found = []
     for t in np.arange(frames, dtype=np.float64):
@@ -79,7 +99,9 @@ def violent(frames: int = 90, rows: int = 96, columns: int = 60) -> tuple[Positi
         frame[:, 1] += 0.01 * np.sin(30.0 * shape[:, 0] + 0.9 * t)
         for axis, angle in enumerate((0.1 * t, 0.07 * t * np.sin(0.05 * t), 0.03 * t)):
             frame = _turned(frame, axis, np.full(len(frame), angle))
-        found.append(frame * (1.0 + 0.3 * np.sin(0.37 * t)) + [0.05 * t, 0.4 * abs(np.sin(0.3 * t)), 0.0])
+        found.append(
+            frame * (1.0 + 0.3 * np.sin(0.37 * t)) + [0.05 * t, 0.4 * abs(np.sin(0.3 * t)), 0.0]
+        )
     return np.array(found), _grid_faces(rows, columns, closed=True)
 
 
@@ -88,11 +110,20 @@ def limbs(mesh: TriangleMesh, frames: int, bones: int = 12, seed: int = 7) -> Po
     random, places = np.random.default_rng(seed), mesh.positions
     joints = places[[0]]
     while len(joints) < bones:  # each as far as possible from the others
-        joints = np.vstack([joints, places[np.square(places[:, None] - joints).sum(axis=2).min(axis=1).argmax()]])
-    share = np.exp(-np.square(places[:, None] - joints).sum(axis=2) / (0.1 * mesh.diagonal) ** 2) + 1e-12
+        joints = np.vstack(
+            [joints, places[np.square(places[:, None] - joints).sum(axis=2).min(axis=1).argmax()]]
+        )
+    share = (
+        np.exp(-np.square(places[:, None] - joints).sum(axis=2) / (0.1 * mesh.diagonal) ** 2)
+        + 1e-12
+    )
     share /= share.sum(axis=1, keepdims=True)
     time, found = np.arange(frames)[:, None, None, None], np.zeros((frames, len(places), 3))
-    paces, phases, reach = random.uniform(0.03, 0.25, (1, bones, 3, 4)), random.uniform(0, 6.3, (1, bones, 3, 4)), 0.2
+    paces, phases, reach = (
+        random.uniform(0.03, 0.25, (1, bones, 3, 4)),
+        random.uniform(0, 6.3, (1, bones, 3, 4)),
+        0.2,
+    )
     angles = reach * np.sin(paces * time + phases).sum(axis=3)
     for bone, joint in enumerate(joints):
         for number, turn in enumerate(angles[:, bone]):

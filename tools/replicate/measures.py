@@ -71,7 +71,12 @@ def dihedral_angles(positions: Positions, faces: Faces, pairs: Any = None) -> tu
         # Of three faces at an edge no two are chosen.
         twice = same & ~np.append(same[1:], False) & ~np.insert(same[:-1], 0, False)
         first, second = order[:-1][twice], order[1:][twice]
-        pairs = first // 3, second // 3, faces[second // 3, (second % 3 + 2) % 3], faces[first // 3, first % 3]
+        pairs = (
+            first // 3,
+            second // 3,
+            faces[second // 3, (second % 3 + 2) % 3],
+            faces[first // 3, first % 3],
+        )
     left, right, apex, foot = pairs
     normals = face_normals(positions, faces)
     cosines = np.clip(np.einsum("ij,ij->i", normals[left], normals[right]), -1.0, 1.0)
@@ -79,7 +84,9 @@ def dihedral_angles(positions: Positions, faces: Faces, pairs: Any = None) -> tu
     return np.arccos(cosines) * np.where(side < 0, -1.0, 1.0), pairs
 
 
-def surface_distance(first: TriangleMesh, second: TriangleMesh, samples: int) -> tuple[float, float]:
+def surface_distance(
+    first: TriangleMesh, second: TriangleMesh, samples: int
+) -> tuple[float, float]:
     """Metro's distances between surfaces, the larger of both directions: Hausdorff, and root mean square (MeshLab)."""
     import pymeshlab
 
@@ -87,7 +94,9 @@ def surface_distance(first: TriangleMesh, second: TriangleMesh, samples: int) ->
     for mesh in (first, second):
         meshes.add_mesh(pymeshlab.Mesh(mesh.positions.astype(np.float64), mesh.faces))
     sampled = {"samplevert": True, "sampleedge": False, "sampleface": True, "samplenum": samples}
-    ways = [meshes.get_hausdorff_distance(sampledmesh=k, targetmesh=1 - k, **sampled) for k in (0, 1)]
+    ways = [
+        meshes.get_hausdorff_distance(sampledmesh=k, targetmesh=1 - k, **sampled) for k in (0, 1)
+    ]
     return max(way["max"] for way in ways), max(way["RMS"] for way in ways)
 
 
@@ -105,8 +114,12 @@ def sted(original: Positions, decoded: Positions, faces: Faces) -> float:
     diagonal = float(np.linalg.norm(np.ptp(original.reshape(-1, 3), axis=0)))
     spatial, temporal = [], []
     for own, right in zip(original, decoded, strict=True):
-        lengths, changed = (np.linalg.norm(np.subtract(*frame[edges.T]), axis=1) for frame in (own, right))
-        spatial.append(_deviation((changed - lengths) / np.maximum(lengths, 1e-12), edges, len(own)))
+        lengths, changed = (
+            np.linalg.norm(np.subtract(*frame[edges.T]), axis=1) for frame in (own, right)
+        )
+        spatial.append(
+            _deviation((changed - lengths) / np.maximum(lengths, 1e-12), edges, len(own))
+        )
     for frames in zip(original, original[1:], decoded, decoded[1:]):
         lengths, changed = (
             np.hypot(np.linalg.norm(after - before, axis=1) / diagonal, STED_TIME)

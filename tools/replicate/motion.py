@@ -28,7 +28,11 @@ from tools.replicate.rates import Row
 FRAMES = 32
 BENT = ("cow", "mushroom", "pig")
 DRACO_BITS = (8, 9, 10, 11, 12, 13)
-OURS: dict[str, dict[str, Any]] = {"default": {}, "fine": {"preset": "fine"}, "low delay, 8 frames": {"low_delay": 8}}
+OURS: dict[str, dict[str, Any]] = {
+    "default": {},
+    "fine": {"preset": "fine"},
+    "low delay, 8 frames": {"low_delay": 8},
+}
 ERRORS = {"kg": "KG error", "sted": "STED"}
 
 
@@ -73,7 +77,11 @@ def sequences(sources: Sequence[Source], own: Path | None, quick: bool) -> list[
     if quick:
         return found[:1]
     files = sorted(own.glob("dynamic/*.npz")) if own else []
-    return [*found, *(Moving(name, name) for name in MADE), *(Moving(path.stem, path) for path in files)]
+    return [
+        *found,
+        *(Moving(name, name) for name in MADE),
+        *(Moving(path.stem, path) for path in files),
+    ]
 
 
 def measure_motion(moving: Moving) -> Row:
@@ -84,12 +92,18 @@ def measure_motion(moving: Moving) -> Row:
         encoder = SequenceEncoder(faces, sequence_options(threads=1, **words), len(frames))
         data = b"".join(encoder.chunks(frames))
         decoded, coded = bsm.decode_sequence(data, threads=1)
-        points[label] = {"bytes": len(data), **errors(frames[:, encoder.vertex_order], decoded, coded)}
+        points[label] = {
+            "bytes": len(data),
+            **errors(frames[:, encoder.vertex_order], decoded, coded),
+        }
     for bits in DRACO_BITS:
         meshes = [TriangleMesh(frame, faces) for frame in frames]
         files = [encode_draco(mesh, bits, 10) for mesh in meshes]
         decoded = np.array(
-            [positions_in_order(mesh, decode_draco(file), bits) for mesh, file in zip(meshes, files, strict=True)]
+            [
+                positions_in_order(mesh, decode_draco(file), bits)
+                for mesh, file in zip(meshes, files, strict=True)
+            ]
         )
         points[f"Draco {bits}"] = {"bytes": sum(map(len, files)), **errors(frames, decoded, faces)}
     size, decoded = half_floats(frames, faces)
@@ -99,7 +113,10 @@ def measure_motion(moving: Moving) -> Row:
 
 
 def errors(original: Positions, decoded: Positions, faces: Faces) -> dict[str, float]:
-    return {"kg": compare_sequences(original, decoded, faces).kg, "sted": sted(original, decoded, faces)}
+    return {
+        "kg": compare_sequences(original, decoded, faces).kg,
+        "sted": sted(original, decoded, faces),
+    }
 
 
 def half_floats(frames: Positions, faces: Faces) -> tuple[int, Positions]:
@@ -108,13 +125,24 @@ def half_floats(frames: Positions, faces: Faces) -> tuple[int, Positions]:
 
     middle, extent = frames.mean(axis=(0, 1)), np.ptp(frames, axis=(0, 1)).max()
     halves = ((frames - middle) / extent).astype(np.float16)
-    steps = np.diff(halves.view(np.uint16), axis=0, prepend=np.zeros((1, *halves.shape[1:]), np.uint16))
+    steps = np.diff(
+        halves.view(np.uint16), axis=0, prepend=np.zeros((1, *halves.shape[1:]), np.uint16)
+    )
     apart = steps.transpose(2, 0, 1).copy().view(np.uint8).reshape(-1, 2).T.tobytes()
     packed = zstandard.ZstdCompressor(level=19).compress(apart + faces.astype(np.int32).T.tobytes())
     return len(packed), halves.astype(np.float64) * extent + middle
 
 
-COLUMNS = ("sequence", "codec", "bytes", "bits per vertex and frame", "KG, %", "STED", "at Draco's KG", "at its STED")
+COLUMNS = (
+    "sequence",
+    "codec",
+    "bytes",
+    "bits per vertex and frame",
+    "KG, %",
+    "STED",
+    "at Draco's KG",
+    "at its STED",
+)
 
 
 def motion_table(rows: Sequence[Row]) -> list[tuple[str, ...]]:
@@ -127,10 +155,17 @@ def motion_table(rows: Sequence[Row]) -> list[tuple[str, ...]]:
             ratios = []
             for error in ERRORS:
                 draco = [row["points"][f"Draco {bits}"] for bits in DRACO_BITS]
-                line = rate_curve([p["bytes"] for p in draco], [10 * math.log10(p[error]) for p in draco])
+                line = rate_curve(
+                    [p["bytes"] for p in draco], [10 * math.log10(p[error]) for p in draco]
+                )
                 rival = line.rate(10 * math.log10(max(point[error], 1e-12)))
                 ratios.append("-" if rival is None else f"{point['bytes'] / rival:.3f}")
             rate = 8 * point["bytes"] / row["frames"] / row["vertices"]
-            cells = f"{point['bytes']:,}", f"{rate:.3f}", f"{point['kg']:.4f}", f"{point['sted']:.5f}"
+            cells = (
+                f"{point['bytes']:,}",
+                f"{rate:.3f}",
+                f"{point['kg']:.4f}",
+                f"{point['sted']:.5f}",
+            )
             found.append((row["sequence"], name, *cells, *ratios))
     return found

@@ -67,7 +67,9 @@ class Gallery:
 
     def facets(self, positions: Positions) -> float:
         """Mean difference of shades, in facets."""
-        pairs = zip(self._facets(self._positions), self._facets(self._placed(positions)), strict=True)
+        pairs = zip(
+            self._facets(self._positions), self._facets(self._placed(positions)), strict=True
+        )
         return float(np.mean([difference(first, second)[0] for first, second in pairs]))
 
     def photographs(self, positions: Positions) -> list[Photograph]:
@@ -94,7 +96,9 @@ def seen(
     area = first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0]
     area[area == 0.0] = 1.0  # seen from their edge, where they show no sample
     # Weights of the second and third corner are linear in the place of a sample.
-    slopes = np.column_stack([second[:, 1], -second[:, 0], -first[:, 1], first[:, 0]]) / area[:, None]
+    slopes = (
+        np.column_stack([second[:, 1], -second[:, 0], -first[:, 1], first[:, 0]]) / area[:, None]
+    )
     x, y = columns + 0.5 - a[face, 0], rows + 0.5 - a[face, 1]
     s, t = (x * slopes[face, k] + y * slopes[face, k + 1] for k in (0, 2))
     axes = camera[:12].reshape(3, 4)[:, :3] * ((1,), (-1,), (1,))
@@ -103,7 +107,9 @@ def seen(
     return rows, columns, unit(p + (q - p) * s[:, None] + (r - p) * t[:, None]).astype(np.float32)
 
 
-def photograph(rows: npt.NDArray[np.intp], columns: npt.NDArray[np.intp], normals: Picture) -> Photograph:
+def photograph(
+    rows: npt.NDArray[np.intp], columns: npt.NDArray[np.intp], normals: Picture
+) -> Photograph:
     """Shade samples by Blinn and Phong in linear light, lit alike on both sides, and average them into pixels."""
     normals = np.where(normals[:, 2:] < 0.0, -normals, normals)
     diffuse, glossy = np.full(len(normals), AMBIENT, np.float32), np.zeros(len(normals), np.float32)
@@ -114,7 +120,9 @@ def photograph(rows: npt.NDArray[np.intp], columns: npt.NDArray[np.intp], normal
         diffuse += bright * towards
         glossy += bright * GLOSS * between**SHARPNESS * (towards > 0.0)
     linear = np.full((PHOTOGRAPH * SAMPLES, PHOTOGRAPH * SAMPLES, 3), WALL, np.float32)
-    linear[rows, columns] = np.minimum(diffuse[:, None] * np.array(ALBEDO, np.float32) + glossy[:, None], 1.0)
+    linear[rows, columns] = np.minimum(
+        diffuse[:, None] * np.array(ALBEDO, np.float32) + glossy[:, None], 1.0
+    )
     pixels = linear.reshape(PHOTOGRAPH, SAMPLES, PHOTOGRAPH, SAMPLES, 3).mean(axis=(1, 3))
     shades = np.where(pixels <= 0.0031308, 12.92 * pixels, 1.055 * pixels ** (1 / 2.4) - 0.055)
     return np.asarray(np.rint(255.0 * shades), np.uint8)

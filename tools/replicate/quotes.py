@@ -37,7 +37,9 @@ def passage(name: str) -> str:
     numbers = json.loads(KEPT.read_text(encoding="utf-8"))["numbers"]
     text = (TEXTS / f"{name}.txt").read_text(encoding="utf-8").strip()
     parts = text.format_map(numbers).split("\n\n")
-    return "\n\n".join(part if part.startswith("|") else fill(part.replace("\n", " "), WIDTH) for part in parts)
+    return "\n\n".join(
+        part if part.startswith("|") else fill(part.replace("\n", " "), WIDTH) for part in parts
+    )
 
 
 def with_passages(document: str, text: str) -> str:

@@ -44,7 +44,12 @@ def codecs() -> dict[str, Any]:
 def measure_mesh(source: Source, meshopt: Path | None) -> Row:
     """Every point of one mesh; a codec that does not take it is named."""
     mesh, points, failed = source.mesh(), {}, {}
-    facts = {"mesh": source.name, "group": source.group, "vertices": len(mesh.positions), "faces": len(mesh.faces)}
+    facts = {
+        "mesh": source.name,
+        "group": source.group,
+        "vertices": len(mesh.positions),
+        "faces": len(mesh.faces),
+    }
     try:
         judge = Judge(mesh)
     except BsmError as error:
@@ -58,14 +63,20 @@ def measure_mesh(source: Source, meshopt: Path | None) -> Row:
             continue
         points[name] = {"bytes": len(data), **judge.measures(positions)}
     for bits, (size, positions) in meshopt_points(mesh, meshopt).items() if meshopt else ():
-        points[f"meshoptimizer {bits}"] = {"bytes": size["gzip"], **size, **judge.measures(positions)}
+        points[f"meshoptimizer {bits}"] = {
+            "bytes": size["gzip"],
+            **size,
+            **judge.measures(positions),
+        }
     return {**facts, "points": points, "failed": failed}
 
 
 def meshopt_points(mesh: TriangleMesh, package: Path) -> dict[int, tuple[Row, Any]]:
     """Sizes and times of meshoptimizer's buffers, and positions, in cubes of 2^bits places: by `MESHOPT_BITS`."""
     low, extent = mesh.positions.min(axis=0), float(np.ptp(mesh.positions, axis=0).max())
-    placed = {bits: np.rint((mesh.positions - low) / extent * (2**bits - 1)) for bits in MESHOPT_BITS}
+    placed = {
+        bits: np.rint((mesh.positions - low) / extent * (2**bits - 1)) for bits in MESHOPT_BITS
+    }
     with tempfile.NamedTemporaryFile() as file:
         file.write(np.array([len(mesh.positions), len(mesh.faces)], np.uint32).tobytes())
         file.write(mesh.faces.astype(np.uint32).tobytes())
@@ -74,8 +85,13 @@ def meshopt_points(mesh: TriangleMesh, package: Path) -> dict[int, tuple[Row, An
         file.flush()
         script = str(Path(__file__).with_name("meshopt.mjs"))
         words = ["node", script, str(package), file.name, *map(str, MESHOPT_BITS)]
-        sizes = json.loads(subprocess.run(words, check=True, capture_output=True, timeout=300).stdout)
-    return {b: (size, low + placed[b] * extent / (2**b - 1)) for b, size in zip(MESHOPT_BITS, sizes, strict=True)}
+        sizes = json.loads(
+            subprocess.run(words, check=True, capture_output=True, timeout=300).stdout
+        )
+    return {
+        b: (size, low + placed[b] * extent / (2**b - 1))
+        for b, size in zip(MESHOPT_BITS, sizes, strict=True)
+    }
 
 
 def time_mesh(source: Source, rounds: int = 3) -> Row:
@@ -88,7 +104,12 @@ def time_mesh(source: Source, rounds: int = 3) -> Row:
         works[f"{name}, encode"] = partial(codec.encode, mesh)
         works[f"{name}, decode"] = partial(codec.decode, data)
     seconds = by_turns(works, rounds)
-    return {"mesh": source.name, "group": source.group, "vertices": len(mesh.positions), "seconds": seconds}
+    return {
+        "mesh": source.name,
+        "group": source.group,
+        "vertices": len(mesh.positions),
+        "seconds": seconds,
+    }
 
 
 def by_turns(works: dict[str, Callable[[], Any]], rounds: int = 3) -> dict[str, float]:
@@ -107,7 +128,9 @@ def by_turns(works: dict[str, Callable[[], Any]], rounds: int = 3) -> dict[str, 
 def curve_of(row: Row, names: Iterable[str], measure: str) -> RateCurve:
     """Bytes over the logarithm of a measure, of the points that are there."""
     points = [row["points"][name] for name in names if name in row["points"]]
-    pairs = [(p["bytes"], 10 * math.log10(p[measure])) for p in points if p.get(measure, 0.0) > 1e-12]
+    pairs = [
+        (p["bytes"], 10 * math.log10(p[measure])) for p in points if p.get(measure, 0.0) > 1e-12
+    ]
     return rate_curve([size for size, _ in pairs], [value for _, value in pairs])
 
 
@@ -155,7 +178,11 @@ def time_summary(rows: Sequence[Row]) -> list[tuple[str, ...]]:
     for name in TIMED:
         for work in ("encode", "decode"):
             values = [
-                (row["seconds"][f"{name}, {work}"] / row["seconds"][f"Draco 11, {work}"], row["mesh"]) for row in rows
+                (
+                    row["seconds"][f"{name}, {work}"] / row["seconds"][f"Draco 11, {work}"],
+                    row["mesh"],
+                )
+                for row in rows
             ]
             found.append(spread(name, f"time to {work}", values))
     return found

@@ -38,7 +38,11 @@ def spread_over(sources: list[Source], count: int) -> list[Source]:
 
 def unseen(sources: list[Source], sizes: tuple[int, int]) -> list[Source]:
     """Fetched meshes, by their numbers of vertices."""
-    return [source for source in sources if source.group == "unseen" and sizes[0] <= source.vertices <= sizes[1]]
+    return [
+        source
+        for source in sources
+        if source.group == "unseen" and sizes[0] <= source.vertices <= sizes[1]
+    ]
 
 
 def shuffled(sources: list[Source]) -> list[Source]:
@@ -63,34 +67,63 @@ def measure_all(
     alone = named and job != COMPARING
     own = Path(os.environ["BSM_MESHES"]) if os.environ.get("BSM_MESHES") and not alone else None
     own_enough = set(minutes) == {"paper"} and complete(own)
-    sources = sources_of(named, NAMED) if named or own_enough else fetch_meshes(folder / "meshes", note)
+    sources = (
+        sources_of(named, NAMED) if named or own_enough else fetch_meshes(folder / "meshes", note)
+    )
     if own and not quick:
-        sources = sorted([*sources, *own_meshes(own)], key=lambda source: (source.vertices, source.name))
+        sources = sorted(
+            [*sources, *own_meshes(own)], key=lambda source: (source.vertices, source.name)
+        )
     workers = max(1, len(os.sched_getaffinity(0)))
     if "rates" in minutes:
         package = meshopt_package(folder / "meshes", note)
         chosen = shuffled([s for s in sources if not quick or s.vertices <= QUICK_SIZE])
-        run_stage(measure_mesh, chosen, folder / "rates", minutes["rates"], note, package, workers=workers)
+        run_stage(
+            measure_mesh, chosen, folder / "rates", minutes["rates"], note, package, workers=workers
+        )
     if "outside" in minutes:
-        chosen = shuffled([s for s in unseen(sources, SEEN) if not quick or s.vertices <= QUICK_SIZE])
-        run_stage(measure_outside, chosen, folder / "outside", minutes["outside"], note, workers=workers)
+        chosen = shuffled(
+            [s for s in unseen(sources, SEEN) if not quick or s.vertices <= QUICK_SIZE]
+        )
+        run_stage(
+            measure_outside, chosen, folder / "outside", minutes["outside"], note, workers=workers
+        )
     if "ablation" in minutes:
-        chosen = [s for sizes, count in ABLATED.items() for s in shuffled(spread_over(unseen(sources, sizes), count))]
-        run_stage(ablate_mesh, chosen, folder / "ablation", minutes["ablation"], note, workers=workers)
+        chosen = [
+            s
+            for sizes, count in ABLATED.items()
+            for s in shuffled(spread_over(unseen(sources, sizes), count))
+        ]
+        run_stage(
+            ablate_mesh, chosen, folder / "ablation", minutes["ablation"], note, workers=workers
+        )
     if "times" in minutes:
-        run_stage(time_mesh, shuffled(spread_over(sources, TIMED)), folder / "times", minutes["times"], note, workers=1)
+        run_stage(
+            time_mesh,
+            shuffled(spread_over(sources, TIMED)),
+            folder / "times",
+            minutes["times"],
+            note,
+            workers=1,
+        )
     if "motion" in minutes:
         moving = sequences(sources, own, quick)
-        run_stage(measure_motion, moving, folder / "motion", minutes["motion"], note, workers=workers)
+        run_stage(
+            measure_motion, moving, folder / "motion", minutes["motion"], note, workers=workers
+        )
     if "denoising" in minutes:
         shared = [] if quick or not own else pairs(own)
         chosen = [*shuffled(spread_over(unseen(sources, NOISY), NOISED)), *shared]
-        run_stage(denoise_mesh, chosen, folder / "denoising", minutes["denoising"], note, workers=workers)
+        run_stage(
+            denoise_mesh, chosen, folder / "denoising", minutes["denoising"], note, workers=workers
+        )
     if "paper" in minutes:
         jobs = [Job(name, own, sources, quick, folder) for name in TABLES if job in (None, name)]
         for path in [folder / "paper" / f"{name}.json" for name in TABLES] if named else ():
             path.unlink(missing_ok=True)  # of other meshes
-        found = run_stage(make_tables, jobs, folder / "paper", minutes["paper"], note, workers=workers)
+        found = run_stage(
+            make_tables, jobs, folder / "paper", minutes["paper"], note, workers=workers
+        )
         if named and len(found) < len(jobs):
             raise SystemExit(f"{len(jobs) - len(found)} of {len(jobs)} tables could not be made")
     results = read(folder)
@@ -122,7 +155,9 @@ def share_all(folder: Path, minutes: float, named: Sequence[Path], *, docs: bool
     found = run_stage(shares.share_mesh, sources, folder / "shares", minutes, note, workers=workers)
     rows = [row for own in found for row in own]
     coded = {row["mesh"] for row in rows if row["base"]}
-    few = [source for source in sources if source.name in coded][:: max(1, len(coded) // shares.COARSE_MESHES)]
+    few = [source for source in sources if source.name in coded][
+        :: max(1, len(coded) // shares.COARSE_MESHES)
+    ]
     found = run_stage(shares.widths_of_mesh, few, folder / "widths", minutes, note, workers=workers)
     widths = [row for own in found for row in own]
     note(str(shares.written_tables(rows, widths, folder)))
@@ -141,5 +176,11 @@ def read(folder: Path) -> dict[str, list[Row]]:
 
 def read_stage(folder: Path, names: Iterable[str] | None = None) -> dict[str, list[Row]]:
     """The rows of a stage by its jobs, all of them or those of these names, in that order."""
-    paths = sorted(folder.glob("*.json")) if names is None else [folder / f"{name}.json" for name in names]
-    return {path.stem: json.loads(path.read_text(encoding="utf-8")) for path in paths if path.exists()}
+    paths = (
+        sorted(folder.glob("*.json"))
+        if names is None
+        else [folder / f"{name}.json" for name in names]
+    )
+    return {
+        path.stem: json.loads(path.read_text(encoding="utf-8")) for path in paths if path.exists()
+    }

@@ -19,7 +19,10 @@ from tools.replicate.rates import Row
 
 WIDTHS = (1, 8, 16, 35, 70, 140)
 """Values of c that are tried in every block."""
-COARSE: dict[str, dict[str, Any]] = {"small": {"preset": "small"}, "-40 dB": {"preset": "none", "nmsve_db": -40.0}}
+COARSE: dict[str, dict[str, Any]] = {
+    "small": {"preset": "small"},
+    "-40 dB": {"preset": "none", "nmsve_db": -40.0},
+}
 """Coarse settings: a preview, and a target."""
 COARSE_MESHES = 5
 ONLY_MEANS = 1
@@ -47,7 +50,12 @@ def share_mesh(source: Source) -> Row:
     """Shares of a default stream; its bytes with means in place of blocks, and in the paper's mode."""
     mesh = source.mesh()
     size, info = stream_of(mesh)
-    row: Row = {"mesh": source.name, "vertices": len(mesh.positions), "bytes": size, "base": bool(info.header.base)}
+    row: Row = {
+        "mesh": source.name,
+        "vertices": len(mesh.positions),
+        "bytes": size,
+        "base": bool(info.header.base),
+    }
     if not info.header.base:
         return row
     kinds = info.positions
@@ -84,8 +92,19 @@ def share_lines(rows: Iterable[Row]) -> list[str]:
         total, kinds = row["bytes"], row["positions"]
         parts = [kinds["blocks"], kinds["levels_of_cells"], kinds["levels_of_vertices"]]
         shares = [f"{100 * part / total:.1f} %" for part in parts]
-        beside = [f"{100 * row['shape'] / total:.0f} %", f"{row['without'] / total:.3f}", f"{row['paper']:,}"]
-        cells = [row["mesh"], f"{row['vertices']:,}", f"{total:,}", f"{parts[0]:,}", *shares, *beside]
+        beside = [
+            f"{100 * row['shape'] / total:.0f} %",
+            f"{row['without'] / total:.3f}",
+            f"{row['paper']:,}",
+        ]
+        cells = [
+            row["mesh"],
+            f"{row['vertices']:,}",
+            f"{total:,}",
+            f"{parts[0]:,}",
+            *shares,
+            *beside,
+        ]
         lines.append(f"| {' | '.join(cells)} |")
     return lines
 
@@ -110,7 +129,10 @@ def span_of(values: Iterable[float], digits: int) -> str:
 def quoted(shares: Sequence[Row], widths: Sequence[Row]) -> dict[str, str]:
     """What the documents quote."""
     coded = [row for row in shares if row["base"]]
-    part = {kind: [100 * row["positions"][kind] / row["bytes"] for row in coded] for kind in coded[0]["positions"]}
+    part = {
+        kind: [100 * row["positions"][kind] / row["bytes"] for row in coded]
+        for kind in coded[0]["positions"]
+    }
     return {
         "lines": "\n".join(share_lines(coded)),
         "scans": str(len(coded)),
@@ -130,5 +152,7 @@ def quoted(shares: Sequence[Row], widths: Sequence[Row]) -> dict[str, str]:
 def written_tables(shares: Sequence[Row], widths: Sequence[Row], folder: Path) -> Path:
     """Write the tables as Markdown."""
     path, words = folder / "shares.md", quoted(shares, widths)
-    path.write_text("\n\n".join(f"{name}:\n\n{text}" for name, text in words.items()) + "\n", encoding="utf-8")
+    path.write_text(
+        "\n\n".join(f"{name}:\n\n{text}" for name, text in words.items()) + "\n", encoding="utf-8"
+    )
     return path

@@ -47,10 +47,16 @@ def git(*words: str) -> str:
 
 def described(work: Callable[..., Any], *given: Any) -> list[Row]:
     """Rows of one job, each with its `run`: commit, processor, date, seconds, and the threads of libraries."""
-    begin, commit = time.monotonic(), git("describe", "--always", "--dirty=-changed", "--exclude=*", "--abbrev=8")
+    begin, commit = (
+        time.monotonic(),
+        git("describe", "--always", "--dirty=-changed", "--exclude=*", "--abbrev=8"),
+    )
     found = work(*given)
     lines = Path("/proc/cpuinfo").read_text().splitlines() if Path("/proc/cpuinfo").exists() else []
-    name = next((line.split(":")[1].strip() for line in lines if line.startswith("model name")), platform.processor())
+    name = next(
+        (line.split(":")[1].strip() for line in lines if line.startswith("model name")),
+        platform.processor(),
+    )
     run = {
         "commit": commit,
         "processor": f"{name}, {len(os.sched_getaffinity(0))} cores",
@@ -98,7 +104,8 @@ def run_stage(
                 continue
             part = folder / f"{source.name}.part"
             part.write_text(json.dumps(found[source.name]))
-            part.replace(folder / f"{source.name}.json")  # whole, or not there, wherever a run is cut
+            # Whole, or not there, wherever a run is cut.
+            part.replace(folder / f"{source.name}.json")
             note(f"{folder.name}: {source.name}, {len(found)} of {len(sources)}")
     if left:
         note(f"{folder.name}: no time was left for {len(left)}: {', '.join(left)}")

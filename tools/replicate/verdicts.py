@@ -10,8 +10,24 @@ from tools.replicate.paper import Job, make_tables
 from tools.replicate.rates import Row
 
 JUDGED = (
-    *("times", "dynamic", "overlap", "edge-effect", "number-of-segments", "powers", "basis", "warm-start"),
-    *("first-block", "convergence", "iterations-or-powers", "rate-and-error", "coarse-to-fine", "fewer-iterations"),
+    *(
+        "times",
+        "dynamic",
+        "overlap",
+        "edge-effect",
+        "number-of-segments",
+        "powers",
+        "basis",
+        "warm-start",
+    ),
+    *(
+        "first-block",
+        "convergence",
+        "iterations-or-powers",
+        "rate-and-error",
+        "coarse-to-fine",
+        "fewer-iterations",
+    ),
     *("rivals", "complexity"),
 )
 """Jobs that judge claims on one mesh, the most disputed first. `coherence` compares five models in one run."""
@@ -36,7 +52,11 @@ def mesh_jobs(sources: Sequence[Source]) -> list[MeshJob]:
 def judge_mesh(mesh_job: MeshJob) -> list[Row]:
     """Return a row for each claim of a job, with the verdict on this mesh."""
     tables = make_tables(Job(mesh_job.job, None, [mesh_job.source], quick=True))
-    beside = {"job": mesh_job.job, "mesh": mesh_job.source.name, "vertices": mesh_job.source.vertices}
+    beside = {
+        "job": mesh_job.job,
+        "mesh": mesh_job.source.name,
+        "vertices": mesh_job.source.vertices,
+    }
     return [{**claim, **beside} for table in tables for claim in table["claims"]]
 
 
@@ -51,7 +71,9 @@ def verdict_lines(rows: Iterable[Row]) -> list[tuple[str, str, str]]:
         judged = {row["mesh"] for row in own}
         failed = {row["mesh"] for row in own if not row["holds"]}
         values = [row["value"] for row in own if isfinite(row["value"])]
-        spread = f"{number(min(values))} to {number(max(values))} {own[0]['unit']}" if values else "-"
+        spread = (
+            f"{number(min(values))} to {number(max(values))} {own[0]['unit']}" if values else "-"
+        )
         lines.append((says, f"{len(judged) - len(failed)} of {len(judged)}", spread))
     return lines
 
@@ -65,7 +87,10 @@ def quoted(rows: Sequence[Row]) -> dict[str, str]:
     """What the documents quote: the lines of the table, and the meshes with their vertices."""
     meshes = {row["mesh"]: row["vertices"] for row in rows}
     lines = [f"| {' | '.join(line)} |" for line in verdict_lines(rows)]
-    return {"lines": "\n".join(lines), "meshes": ", ".join(f"{name} ({count:,})" for name, count in meshes.items())}
+    return {
+        "lines": "\n".join(lines),
+        "meshes": ", ".join(f"{name} ({count:,})" for name, count in meshes.items()),
+    }
 
 
 def written_table(rows: Sequence[Row], folder: Path) -> Path:

@@ -34,8 +34,12 @@ def main() -> int:
     """Run the command."""
     parser = parser_of(__doc__)
     parser.add_argument("--new", action="store_true", help="make the vectors that are missing")
-    parser.add_argument("--example", action="store_true", help="print the worked examples of the specification")
-    parser.add_argument("--only", metavar="TEXT", default="", help="only vectors whose names hold this")
+    parser.add_argument(
+        "--example", action="store_true", help="print the worked examples of the specification"
+    )
+    parser.add_argument(
+        "--only", metavar="TEXT", default="", help="only vectors whose names hold this"
+    )
     args = parser.parse_args()
     if args.new:
         return write()
@@ -61,7 +65,11 @@ def try_product(vector: Vector) -> str | None:
     except BsmError as error:
         found = error_name(error)
         return None if found == vector.error else f"refused as {found}, {error}"
-    return f"decoded, and not refused as {vector.error}" if vector.error else vector.complaint(*decoded)
+    return (
+        f"decoded, and not refused as {vector.error}"
+        if vector.error
+        else vector.complaint(*decoded)
+    )
 
 
 def error_name(error: BsmError) -> str:
@@ -93,7 +101,11 @@ def _decode_sequence(data: bytes) -> tuple[np.ndarray, np.ndarray, Arrays]:
         arrays = arrays_of_frames(decoder.attributes, shown)
     if len(runs) == 1:
         return np.array(frames).reshape(-1, runs[0][1], 3), faces[0], arrays
-    return np.concatenate(frames), np.concatenate(faces), arrays | {"runs": np.array(runs, np.int32)}
+    return (
+        np.concatenate(frames),
+        np.concatenate(faces),
+        arrays | {"runs": np.array(runs, np.int32)},
+    )
 
 
 def write() -> int:
@@ -115,7 +127,10 @@ def write() -> int:
         except BsmError as error:
             found = error_name(error)
         if found != vector.error:
-            print(f"{name} is {found or 'decoded'}, and should be {vector.error or 'decoded'}", file=sys.stderr)
+            print(
+                f"{name} is {found or 'decoded'}, and should be {vector.error or 'decoded'}",
+                file=sys.stderr,
+            )
             return 1
     write_vectors(streams, meshes)
     write_needs()

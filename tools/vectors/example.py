@@ -7,7 +7,13 @@ import numpy.typing as npt
 
 from bsm.bitstream.container.header import HEADER_FIELDS
 from bsm.bitstream.container.packets import Header
-from bsm.bitstream.container.wire import FrameType, write_frame, write_map, write_preamble, write_varint
+from bsm.bitstream.container.wire import (
+    FrameType,
+    write_frame,
+    write_map,
+    write_preamble,
+    write_varint,
+)
 from bsm.codec.blocks.overlap import derive_partition, grow_blocks
 from bsm.codec.decoding import decode
 from bsm.codec.geometry.graph import graph_of_faces
@@ -23,7 +29,15 @@ def example() -> str:
     """Text of the section, as it must stand in the document."""
     stream = (FOLDER / f"{NAME}.bsm").read_bytes()
     lines = [f"    {data.hex(' '):30}  {meaning}" for data, meaning in _bytes(stream)]
-    return "\n".join([f"`vectors/{FOLDER.name}/{NAME}.bsm`, {len(stream)} bytes:", "", *lines, "", *_numbers(stream)])
+    return "\n".join(
+        [
+            f"`vectors/{FOLDER.name}/{NAME}.bsm`, {len(stream)} bytes:",
+            "",
+            *lines,
+            "",
+            *_numbers(stream),
+        ]
+    )
 
 
 def _bytes(stream: bytes) -> Iterator[tuple[bytes, str]]:
@@ -75,18 +89,24 @@ def _numbers(stream: bytes) -> list[str]:
     vertices = chain.begin(0)[0]
     subspace = chain.dictionary(payload[1])
     places = (mesh.positions[vertices] - header.center) / header.scale
-    points = np.rint(2.0 * subspace.T @ places / header.step).astype(int)  # in half steps, since U is orthonormal
+    # In half steps, since U is orthonormal.
+    points = np.rint(2.0 * subspace.T @ places / header.step).astype(int)
     levels, coefficients = np.sign(points) * ((np.abs(points) + 1) // 2), 0.5 * header.step * points
     return [
         "The faces are " + ", ".join(f"({a} {b} {c})" for a, b, c in mesh.faces.tolist()) + ".",
-        "The rows of the only block are the vertices " + " ".join(map(str, vertices.tolist())) + ".",
+        "The rows of the only block are the vertices "
+        + " ".join(map(str, vertices.tolist()))
+        + ".",
         "Its levels, and their coefficients:",
         "",
         *(f"    {_row(a, '4d')}    {_row(b, '9.6f')}" for a, b in zip(levels, coefficients)),
         "",
         "The block is the first of its chain, so its extension is 0. Its dictionary U, and U times the coefficients:",
         "",
-        *(f"    {_row(a, '9.6f')}    {_row(b, '9.6f')}" for a, b in zip(subspace, subspace @ coefficients)),
+        *(
+            f"    {_row(a, '9.6f')}    {_row(b, '9.6f')}"
+            for a, b in zip(subspace, subspace @ coefficients)
+        ),
         "",
         "In the unit of the mesh, vertex after vertex:",
         "",
@@ -96,4 +116,6 @@ def _numbers(stream: bytes) -> list[str]:
 
 
 def _row(values: npt.NDArray[np.generic], form: str) -> str:
-    return " ".join(format(value + 0 if abs(value) > 5e-7 else abs(value), form) for value in values.tolist())
+    return " ".join(
+        format(value + 0 if abs(value) > 5e-7 else abs(value), form) for value in values.tolist()
+    )

@@ -25,14 +25,18 @@ def creases(mesh: TriangleMesh) -> Attribute:
     smooth = np.zeros_like(mesh.positions)
     for k in range(3):
         np.add.at(smooth, mesh.faces[:, k], flat)
-    sharp = (mesh.positions[mesh.faces].mean(axis=1)[:, 1] > mesh.positions[:, 1].mean())[:, None, None]
+    sharp = (mesh.positions[mesh.faces].mean(axis=1)[:, 1] > mesh.positions[:, 1].mean())[
+        :, None, None
+    ]
     corners = np.where(sharp, flat[:, None], smooth[mesh.faces])
     return Attribute("normal", corners.reshape(-1, 3).astype(np.float32), "corner", "normal")
 
 
 def colors(mesh: TriangleMesh, kind: str = "uint8") -> Attribute:
     """Smooth ones of vertices."""
-    shades = 0.5 + 0.45 * np.sin(3 * mesh.positions @ np.array([[1, 2, 0, 1], [0, 1, 3, 1], [2, 0, 1, 1.0]]))
+    shades = 0.5 + 0.45 * np.sin(
+        3 * mesh.positions @ np.array([[1, 2, 0, 1], [0, 1, 3, 1], [2, 0, 1, 1.0]])
+    )
     shades *= {"uint8": 255, "uint16": 65535}.get(kind, 1)
     return Attribute("color", shades.astype(kind), "vertex", "color")
 

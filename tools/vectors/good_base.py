@@ -18,7 +18,18 @@ from bsm.codec.static.ways.in_blocks import refine_blocks
 from bsm.codec.static.ways.in_cells import InCells, Spread
 from tools.surgery import Frames, frames_of, stream_of, with_header
 from tools.vectors.good import Bad, Good
-from tools.vectors.meshes import grid_faces, hub, patch, shuffled, tangled, tent, tetrahedron, together, torus, triangle
+from tools.vectors.meshes import (
+    grid_faces,
+    hub,
+    patch,
+    shuffled,
+    tangled,
+    tent,
+    tetrahedron,
+    together,
+    torus,
+    triangle,
+)
 
 USUAL = Spread()
 
@@ -48,7 +59,11 @@ def draft(
     known = base.known_steps(layer, levels)
     levels[:, 1:] = np.rint(base.offsets[:, 1:] / known[:, 1:])
     moved = base.moved(layer, levels, known)
-    return refine_blocks(base.prepared, base.draft, layer, levels, moved), prepared.mesh.faces, levels
+    return (
+        refine_blocks(base.prepared, base.draft, layer, levels, moved),
+        prepared.mesh.faces,
+        levels,
+    )
 
 
 def based(*given: Any, **options: Any) -> bytes:
@@ -65,7 +80,11 @@ def _chunks(size: int) -> bytes:
     cells, field = made.header.base[0], levels_field(faces, levels)
 
     def packets() -> Iterator[Packet]:
-        yield from (packet for packet in made.body if not (isinstance(packet, Refinement) and packet.first >= cells))
+        yield from (
+            packet
+            for packet in made.body
+            if not (isinstance(packet, Refinement) and packet.first >= cells)
+        )
         for start in range(0, len(levels), size):
             count = min(size, len(levels) - start)
             yield Refinement(cells + start, count, *field.write(count))
@@ -109,7 +128,9 @@ def strip(size: int) -> TriangleMesh:
     """A strip of triangles, whose cells follow each other and have no faces."""
     k = np.arange(size)
     faces = np.stack([k[:-2], k[1:-1], k[2:]], -1).astype(np.int32)
-    return TriangleMesh(np.stack([0.1 * (k // 2), 0.05 * (k % 2), 0.1 * np.sin(0.3 * k)], -1), faces)
+    return TriangleMesh(
+        np.stack([0.1 * (k // 2), 0.05 * (k % 2), 0.1 * np.sin(0.3 * k)], -1), faces
+    )
 
 
 def loose(count: int) -> TriangleMesh:
@@ -124,9 +145,15 @@ def pages(count: int) -> TriangleMesh:
     places, faces = [sheet.positions[:columns]], []
     for number, turn in enumerate(turns):
         x, y, z = sheet.positions[columns:].T
-        places.append(np.stack([x * np.cos(turn) - z * np.sin(turn), y, x * np.sin(turn) + z * np.cos(turn)], -1))
+        places.append(
+            np.stack(
+                [x * np.cos(turn) - z * np.sin(turn), y, x * np.sin(turn) + z * np.cos(turn)], -1
+            )
+        )
         of_sheet = grid_faces(rows, columns)
-        faces.append(np.where(of_sheet < columns, of_sheet, of_sheet + number * (rows - 1) * columns))
+        faces.append(
+            np.where(of_sheet < columns, of_sheet, of_sheet + number * (rows - 1) * columns)
+        )
     return TriangleMesh(np.concatenate(places), np.concatenate(faces))
 
 
@@ -144,7 +171,10 @@ def cylinder(sides: int) -> TriangleMesh:
     ends = np.array([[0, 0, 0], [0, 0, 3.0]])
     after = (k + 1) % sides
     sides_of = [[k, after, sides + after], [k, sides + after, sides + k]]
-    fans = [[np.full(sides, 2 * sides), after, k], [np.full(sides, 2 * sides + 1), sides + k, sides + after]]
+    fans = [
+        [np.full(sides, 2 * sides), after, k],
+        [np.full(sides, 2 * sides + 1), sides + k, sides + after],
+    ]
     faces = np.concatenate([np.stack(rows, -1) for rows in [*sides_of, *fans]])
     return TriangleMesh(np.concatenate([ring, ring + np.array([0, 0, 3.0]), ends]), faces)
 
@@ -172,14 +202,26 @@ BASES: dict[str, Good] = {
         ("strip", "no face of cells", lambda: based(strip(90))),
         ("narrow", "few faces of cells", lambda: based(patch(70, 4))),
         ("loose", "faces each on its own", lambda: based(loose(30))),
-        ("parts", "cells without neighbors", lambda: based(together(*[tetrahedron()] * 12, torus(12, 10)))),
-        ("tangled", "edges of three faces, repeated and degenerate faces", lambda: based(tangled())),
+        (
+            "parts",
+            "cells without neighbors",
+            lambda: based(together(*[tetrahedron()] * 12, torus(12, 10))),
+        ),
+        (
+            "tangled",
+            "edges of three faces, repeated and degenerate faces",
+            lambda: based(tangled()),
+        ),
         ("tent", "vertices of many neighbors", lambda: based(tent())),
         ("pages", "sheets at one edge", lambda: based(pages(5))),
         ("bowtie", "two surfaces at one vertex", lambda: based(bowtie())),
         ("flipped", "faces turned over, and from both sides", lambda: based(flipped())),
         ("needles", "long thin faces", lambda: based(needles())),
-        ("point", "all at one place", lambda: based(TriangleMesh(torus(12, 10).positions * 0.0, torus(12, 10).faces))),
+        (
+            "point",
+            "all at one place",
+            lambda: based(TriangleMesh(torus(12, 10).positions * 0.0, torus(12, 10).faces)),
+        ),
         ("order", "in the order given", lambda: based(shuffled(torus(16, 12)), order=True)),
         ("reach-1", "the least reach", lambda: based(torus(20, 14), Spread(1, 3))),
         ("reach-3", "a wider reach", lambda: based(torus(24, 20), Spread(3, 14))),
@@ -215,15 +257,31 @@ BASES_BAD: dict[str, Bad] = {
         ("long", "five numbers", lambda: _header(base=[60, 2, 8, 6, 1])),
         ("floats", "floats", lambda: _header(base=[60.0, 2.0, 8.0, 6.0])),
         ("unrefined", "no refinement", lambda: _header(refinement=None)),
-        ("paper", "constants of the paper", lambda: _header(paper=[0.0, 0.0, 0.0, 4.0, 1.0, 2.0, 2.0**-7, 1.0])),
+        (
+            "paper",
+            "constants of the paper",
+            lambda: _header(paper=[0.0, 0.0, 0.0, 4.0, 1.0, 2.0, 2.0**-7, 1.0]),
+        ),
         ("sequence", "a sequence", lambda: _header(sequence=[1, 1])),
         ("grid", "a grid", lambda: _header(grid=[9, 9, 9])),
         ("blocks", "more blocks than cells", lambda: _header(blocks=100)),
         ("block-size", "blocks of more than all cells", lambda: _header(block_size=200)),
         ("partition", "a PARTITION", lambda: _partitioned()),
-        ("both", "a frame of cells and vertices", lambda: _refinement(lambda first, count, cells: (first, cells + 1))),
-        ("gap", "levels of cells that end early", lambda: _refinement(lambda first, count, cells: (first, cells - 1))),
-        ("late", "vertices without levels of cells", lambda: _without(FrameType.REFINEMENT, slice(1))),
+        (
+            "both",
+            "a frame of cells and vertices",
+            lambda: _refinement(lambda first, count, cells: (first, cells + 1)),
+        ),
+        (
+            "gap",
+            "levels of cells that end early",
+            lambda: _refinement(lambda first, count, cells: (first, cells - 1)),
+        ),
+        (
+            "late",
+            "vertices without levels of cells",
+            lambda: _without(FrameType.REFINEMENT, slice(1)),
+        ),
         (
             "beyond",
             "levels beyond the last vertex",

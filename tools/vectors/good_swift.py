@@ -29,7 +29,9 @@ def numbers(mesh: TriangleMesh) -> Attribute:
 
 def coarse(mesh: TriangleMesh) -> Attribute:
     """Whole numbers of vertices, which are 0 and 1."""
-    return Attribute("coarse", (np.arange(len(mesh.positions)) // 3 % 2).astype(np.uint8)[:, None], "vertex")
+    return Attribute(
+        "coarse", (np.arange(len(mesh.positions)) // 3 % 2).astype(np.uint8)[:, None], "vertex"
+    )
 
 
 def tangents(mesh: TriangleMesh) -> Attribute:
@@ -46,7 +48,15 @@ def tangents(mesh: TriangleMesh) -> Attribute:
 
 def turned(mesh: TriangleMesh, effort: str, **options: Any) -> bytes:
     """A mesh with normals of 10 bits, texture coordinates, and tangents of 9 bits, which are turns."""
-    return of(mesh, effort, creases, charts, tangents, attributes={"normal": "10bits", "tangent": "9bits"}, **options)
+    return of(
+        mesh,
+        effort,
+        creases,
+        charts,
+        tangents,
+        attributes={"normal": "10bits", "tangent": "9bits"},
+        **options,
+    )
 
 
 def in_chunks(effort: str) -> bytes:
@@ -57,7 +67,9 @@ def in_chunks(effort: str) -> bytes:
     return b"".join(with_attributes_of(rounded(sent.prepared, 9), sent.carried, {}, 101).frames)
 
 
-def of(mesh: TriangleMesh, effort: str, *makers: Callable[[TriangleMesh], Attribute], **options: Any) -> bytes:
+def of(
+    mesh: TriangleMesh, effort: str, *makers: Callable[[TriangleMesh], Attribute], **options: Any
+) -> bytes:
     """A mesh on a grid of 9 bits unless options say otherwise, with attributes of these makers; none: usual ones."""
     given = with_attributes(mesh, *(makers or USUAL))
     return encode(given, EncodeOptions(threads=1, effort=effort, **({"grid": 9} | options)))
@@ -71,7 +83,9 @@ def _damaged(change: Callable[[bytes], bytes], effort: str = "quick") -> bytes:
 
 
 def _bare(**fields: Any) -> bytes:
-    return with_header(encode(torus(24, 16), EncodeOptions(threads=1, effort="quick", grid=9)), **fields)
+    return with_header(
+        encode(torus(24, 16), EncodeOptions(threads=1, effort="quick", grid=9)), **fields
+    )
 
 
 _MADE: dict[str, tuple[str, Callable[[str], bytes]]] = {
@@ -88,7 +102,10 @@ _MADE: dict[str, tuple[str, Callable[[str], bytes]]] = {
         "vertices and faces in the given order",
         lambda effort: of(shuffled(torus(24, 16)), effort, keep_order=True),
     ),
-    "pieces": ("numbers of two pieces, in groups of four", lambda effort: of(torus(12, 9), effort, numbers, coarse)),
+    "pieces": (
+        "numbers of two pieces, in groups of four",
+        lambda effort: of(torus(12, 9), effort, numbers, coarse),
+    ),
     "tangents": ("tangents that are turns", partial(turned, torus(24, 16))),
     "tangents-border": ("tangents at a border", partial(turned, patch(9, 14))),
     "tangents-hub": ("tangents around a vertex of many faces", partial(turned, hub())),
@@ -98,7 +115,10 @@ _MADE: dict[str, tuple[str, Callable[[str], bytes]]] = {
         lambda effort: turned(shuffled(torus(24, 16)), effort, keep_order=True),
     ),
     "chunks": ("values in several frames", in_chunks),
-    "bits": ("normals of 16 bits", lambda effort: of(torus(12, 9), effort, creases, attributes={"*": "16bits"})),
+    "bits": (
+        "normals of 16 bits",
+        lambda effort: of(torus(12, 9), effort, creases, attributes={"*": "16bits"}),
+    ),
 }
 SWIFTS: dict[str, Good] = {
     f"good-swift-{kind}-{name}": Good(f"swift {number}: {probes}", partial(make, effort))
@@ -108,26 +128,44 @@ SWIFTS: dict[str, Good] = {
 }
 SWIFTS_BAD: dict[str, Bad] = {
     "bad-swift-none": Bad("swift attributes, and none", "corrupt", lambda: _bare(swift=1)),
-    "bad-swift-zero": Bad("a stored default", "corrupt", lambda: with_header(of(torus(12, 9), "quick"), swift=0)),
-    "unsupported-swift-method": Bad(
-        "a method that is not known", "unsupported", lambda: with_header(of(torus(12, 9), "quick"), swift=3)
+    "bad-swift-zero": Bad(
+        "a stored default", "corrupt", lambda: with_header(of(torus(12, 9), "quick"), swift=0)
     ),
-    "bad-swift-short": Bad("values that end early", "truncated", lambda: _damaged(lambda payload: payload[:-9])),
-    "bad-swift-long": Bad("values that end late", "corrupt", lambda: _damaged(lambda payload: payload + b"\1\2\3\4\5")),
+    "unsupported-swift-method": Bad(
+        "a method that is not known",
+        "unsupported",
+        lambda: with_header(of(torus(12, 9), "quick"), swift=3),
+    ),
+    "bad-swift-short": Bad(
+        "values that end early", "truncated", lambda: _damaged(lambda payload: payload[:-9])
+    ),
+    "bad-swift-long": Bad(
+        "values that end late", "corrupt", lambda: _damaged(lambda payload: payload + b"\1\2\3\4\5")
+    ),
     "bad-swift-range": Bad(
-        "a normal beyond the octahedron", "corrupt", lambda: _damaged(lambda payload: payload[:6] + b"\x7f" * 999)
+        "a normal beyond the octahedron",
+        "corrupt",
+        lambda: _damaged(lambda payload: payload[:6] + b"\x7f" * 999),
     ),
     "bad-swift-tangents-header": Bad(
-        "tangents without `swift`", "corrupt", lambda: with_header(turned(torus(12, 9), "quick"), swift=None)
+        "tangents without `swift`",
+        "corrupt",
+        lambda: with_header(turned(torus(12, 9), "quick"), swift=None),
     ),
     "bad-swift-tangents-bases": Bad(
-        "tangents without bases", "corrupt", lambda: with_declaration(turned(torus(12, 9), "quick"), 2, bases=None)
+        "tangents without bases",
+        "corrupt",
+        lambda: with_declaration(turned(torus(12, 9), "quick"), 2, bases=None),
     ),
     "bad-swift-tangents-later": Bad(
-        "bases that come later", "corrupt", lambda: with_declaration(turned(torus(12, 9), "quick"), 2, bases=[1, 3])
+        "bases that come later",
+        "corrupt",
+        lambda: with_declaration(turned(torus(12, 9), "quick"), 2, bases=[1, 3]),
     ),
     "bad-swift-tangents-exchanged": Bad(
-        "bases in the other order", "corrupt", lambda: with_declaration(turned(torus(12, 9), "quick"), 2, bases=[2, 1])
+        "bases in the other order",
+        "corrupt",
+        lambda: with_declaration(turned(torus(12, 9), "quick"), 2, bases=[2, 1]),
     ),
     "bad-swift-tangents-size": Bad(
         "a diamond of no whole size",
@@ -140,6 +178,8 @@ SWIFTS_BAD: dict[str, Bad] = {
         lambda: with_declaration(turned(torus(12, 9), "quick"), 1, bases=[1, 1]),
     ),
     "bad-swift-mixed-range": Bad(
-        "a normal beyond it", "corrupt", lambda: _damaged(lambda payload: payload[:6] + b"\x7f" * 999, "normal")
+        "a normal beyond it",
+        "corrupt",
+        lambda: _damaged(lambda payload: payload[:6] + b"\x7f" * 999, "normal"),
     ),
 }

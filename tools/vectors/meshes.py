@@ -6,9 +6,13 @@ import numpy.typing as npt
 from bsm.codec.geometry.mesh import TriangleMesh
 
 
-def grid_faces(rows: int, columns: int, closed: tuple[bool, bool] = (False, False)) -> npt.NDArray[np.int32]:
+def grid_faces(
+    rows: int, columns: int, closed: tuple[bool, bool] = (False, False)
+) -> npt.NDArray[np.int32]:
     """Triangles of a rectangular grid of vertices, of which rows and columns may be closed."""
-    i, j = np.meshgrid(np.arange(rows - (not closed[0])), np.arange(columns - (not closed[1])), indexing="ij")
+    i, j = np.meshgrid(
+        np.arange(rows - (not closed[0])), np.arange(columns - (not closed[1])), indexing="ij"
+    )
     a, b = i * columns + j, (i + 1) % rows * columns + j
     c, d = (i + 1) % rows * columns + (j + 1) % columns, i * columns + (j + 1) % columns
     halves = [np.stack([a, b, c], -1), np.stack([a, c, d], -1)]
@@ -22,19 +26,29 @@ def patch(rows: int, columns: int) -> TriangleMesh:
     return TriangleMesh(np.stack([x, y, z], -1).reshape(-1, 3), grid_faces(rows, columns))
 
 
-def torus(rows: int = 40, columns: int = 24, phase: float = 0.0, bumps: float = 0.05) -> TriangleMesh:
+def torus(
+    rows: int = 40, columns: int = 24, phase: float = 0.0, bumps: float = 0.05
+) -> TriangleMesh:
     """A bumpy torus: closed, genus one; its graph is so regular that eigenvalues repeat."""
     angles = [np.linspace(0, 2 * np.pi, count, endpoint=False) for count in (rows, columns)]
     u, v = np.meshgrid(*angles, indexing="ij")
     r = 0.35 * (1 + bumps * np.sin(6 * u + phase) * np.sin(4 * v))
-    x, y, z = (1 + r * np.cos(v)) * np.cos(u), (1 + r * np.cos(v)) * np.sin(u), r * np.sin(v + phase)
-    return TriangleMesh(np.stack([x, y, z], -1).reshape(-1, 3), grid_faces(rows, columns, (True, True)))
+    x, y, z = (
+        (1 + r * np.cos(v)) * np.cos(u),
+        (1 + r * np.cos(v)) * np.sin(u),
+        r * np.sin(v + phase),
+    )
+    return TriangleMesh(
+        np.stack([x, y, z], -1).reshape(-1, 3), grid_faces(rows, columns, (True, True))
+    )
 
 
 def tetrahedron() -> TriangleMesh:
     """Four vertices, four faces."""
     positions = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]
-    return TriangleMesh(np.array(positions, float), np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]]))
+    return TriangleMesh(
+        np.array(positions, float), np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]])
+    )
 
 
 def triangle() -> TriangleMesh:
@@ -54,7 +68,9 @@ def tangled() -> TriangleMesh:
     """All that a list of triangles may be: an edge of three faces, faces turned around, repeated, and degenerate."""
     base = patch(7, 6)
     last = len(base.positions)
-    positions = np.concatenate([base.positions, [[0.5, 0.5, 1.0], [0.2, 0.9, -0.5], [2.0, 2.0, 2.0]]])
+    positions = np.concatenate(
+        [base.positions, [[0.5, 0.5, 1.0], [0.2, 0.9, -0.5], [2.0, 2.0, 2.0]]]
+    )
     inner = base.faces[20]
     extra = [
         [inner[0], inner[1], last],
@@ -91,7 +107,8 @@ def tent(side: int = 19) -> TriangleMesh:
     lower = np.stack([np.full(len(around), size + 1), np.roll(around, -2), around], -1)
     tips = [[0.5, 0.6, 1.0], [0.4, 0.7, -0.8]]
     return TriangleMesh(
-        np.concatenate([base.positions, tips]), np.concatenate([base.faces, upper, lower]).astype(np.int32)
+        np.concatenate([base.positions, tips]),
+        np.concatenate([base.faces, upper, lower]).astype(np.int32),
     )
 
 
@@ -101,6 +118,8 @@ def shuffled(mesh: TriangleMesh) -> TriangleMesh:
     number = np.arange(n) * 7 % n if n % 7 else np.arange(n)[::-1]
     positions = np.empty_like(mesh.positions)
     positions[number] = mesh.positions
-    faces = number.astype(np.int32)[mesh.faces][np.arange(m) * 11 % m if m % 11 else np.arange(m)[::-1]]
+    faces = number.astype(np.int32)[mesh.faces][
+        np.arange(m) * 11 % m if m % 11 else np.arange(m)[::-1]
+    ]
     turns: npt.NDArray[np.int64] = (np.arange(m)[:, None] + np.arange(3)) % 3
     return TriangleMesh(positions, faces[np.arange(m)[:, None], turns])

@@ -127,7 +127,11 @@ def spots_of(module: str) -> Iterator[Spot]:
 
 def places_of(node: ast.AST, lines: list[str]) -> Iterator[tuple[int, int, int]]:
     """Where a node has what can be changed: line, and from where to where in it."""
-    if isinstance(node, ast.Constant) and type(node.value) in (int, float) and node.value not in (0, 1, 2):
+    if (
+        isinstance(node, ast.Constant)
+        and type(node.value) in (int, float)
+        and node.value not in (0, 1, 2)
+    ):
         yield node.lineno, node.col_offset, node.end_col_offset or 0
     sides: list[ast.expr] = []
     if isinstance(node, ast.Compare):
@@ -160,7 +164,9 @@ def outcome(decoder: Any, stream: bytes) -> str:
         positions, faces, skipped = decoder.decode(stream)
     except tuple(decoder.EXIT_CODES) as error:
         return type(error).__name__
-    return hashlib.sha256(positions.tobytes() + faces.tobytes() + repr(skipped).encode()).hexdigest()
+    return hashlib.sha256(
+        positions.tobytes() + faces.tobytes() + repr(skipped).encode()
+    ).hexdigest()
 
 
 @dataclass(frozen=True)
@@ -176,7 +182,9 @@ class Known:
 def known(decoder: Any, stream: bytes) -> Known:
     """What the decoder does with a stream."""
     called: set[tuple[str, int]] = set()
-    sys.setprofile(lambda frame, *_: called.add((frame.f_code.co_filename, frame.f_code.co_firstlineno)))
+    sys.setprofile(
+        lambda frame, *_: called.add((frame.f_code.co_filename, frame.f_code.co_firstlineno))
+    )
     outcome(decoder, stream)
     sys.setprofile(None)
     begin = time.process_time()
@@ -194,7 +202,8 @@ def is_noticed(spot: Spot, vectors: list[Known]) -> bool:
         decoder, alike = reference(spot), True
         for vector in vectors:
             if alike and (spot.function is None or spot.function in vector.called):
-                signal.setitimer(signal.ITIMER_PROF, 1 + 5 * vector.seconds)  # one that goes on and on is ended
+                # One that goes on and on is ended.
+                signal.setitimer(signal.ITIMER_PROF, 1 + 5 * vector.seconds)
                 alike = outcome(decoder, vector.stream) == vector.right
     except BaseException:  # a mutant may fail in any way
         alike = False
@@ -218,7 +227,9 @@ def main() -> int:
         if not is_noticed(spot, streams):
             missed += 1
             print(spot, flush=True)
-    print(f"{missed} of {len(chosen)} changed places are noticed by no vector, of {len(spots)} that there are")
+    print(
+        f"{missed} of {len(chosen)} changed places are noticed by no vector, of {len(spots)} that there are"
+    )
     return 1 if missed else 0
 
 

@@ -22,7 +22,11 @@ NEXT = FOLDER.parent / "1.3"
 """Those of this minor version, which stay from the next one on."""
 NEEDS = FOLDER.parent / "needs.json"
 """The documents that each vector needs, of all versions."""
-FRAME_NEEDS = {FrameType.ORDER: "order", FrameType.PARTITION: "paper", FrameType.ATTRIBUTE: "attributes"}
+FRAME_NEEDS = {
+    FrameType.ORDER: "order",
+    FrameType.PARTITION: "paper",
+    FrameType.ATTRIBUTE: "attributes",
+}
 FIELD_NEEDS = ("light", "congruence", "turn", "base", "swift", "paper", "attributes", "sequence")
 MANIFEST = "manifest.json"
 ROUNDING = 1e-6
@@ -61,7 +65,9 @@ class Vector:
         """File with `positions`, shape (n, 3) or for a sequence (T, n, 3), `faces`, shape (m, 3), and attributes."""
         return self.folder / f"{self.name}.npz"
 
-    def complaint(self, positions: npt.NDArray[Any], faces: npt.NDArray[Any], attributes: Arrays) -> str | None:
+    def complaint(
+        self, positions: npt.NDArray[Any], faces: npt.NDArray[Any], attributes: Arrays
+    ) -> str | None:
         """What is wrong with a decoded mesh, or None."""
         with np.load(self.expected) as file:
             right, connected = file["positions"], file["faces"]
@@ -84,16 +90,22 @@ def arrays_of(attributes: Iterable[Attribute]) -> Arrays:
     """Attributes as the arrays that spec/vectors/README.md tells of."""
     arrays: Arrays = {}
     for index, attribute in enumerate(attributes):
-        arrays[f"attribute {index} {attribute.semantic} {attribute.domain} {attribute.name}"] = attribute.values
+        arrays[f"attribute {index} {attribute.semantic} {attribute.domain} {attribute.name}"] = (
+            attribute.values
+        )
         if attribute.indices is not None:
             arrays[f"indices {index}"] = attribute.indices
     return arrays
 
 
-def arrays_of_frames(attributes: Sequence[Attribute], shown: Sequence[Sequence[Attribute]]) -> Arrays:
+def arrays_of_frames(
+    attributes: Sequence[Attribute], shown: Sequence[Sequence[Attribute]]
+) -> Arrays:
     """Attributes of a run as such arrays, of all frames that have `shown` them where they move."""
     arrays = arrays_of(attributes)
-    for name, *frames in zip(arrays_of(shown[0]) if shown else (), *(arrays_of(each).values() for each in shown)):
+    for name, *frames in zip(
+        arrays_of(shown[0]) if shown else (), *(arrays_of(each).values() for each in shown)
+    ):
         if any(values is not frames[0] for values in frames):
             arrays[name] = np.array(frames)
     return arrays
@@ -117,7 +129,11 @@ def read_manifest() -> list[Vector]:
         If a stream or an expected mesh is missing.
     """
     manifests = sorted(FOLDER.parent.glob(f"*/{MANIFEST}"))
-    entries = [(each.parent, vector) for each in manifests for vector in json.loads(each.read_text())["vectors"]]
+    entries = [
+        (each.parent, vector)
+        for each in manifests
+        for vector in json.loads(each.read_text())["vectors"]
+    ]
     vectors = [Vector(**vector, folder=folder) for folder, vector in entries]
     for vector in vectors:
         for path in [vector.stream] if vector.error else [vector.stream, vector.expected]:
@@ -132,8 +148,12 @@ def needs_of(stream: bytes) -> list[str]:
     try:
         found |= {"brief"} if is_brief(stream) else set()
         frames = frames_of(stream)
-        found |= {name for kind, name in FRAME_NEEDS.items() if kind in {kind for kind, _ in frames}}
-        fields = set().union(*(header_entries(payload) for kind, payload in frames if kind == FrameType.HEADER))
+        found |= {
+            name for kind, name in FRAME_NEEDS.items() if kind in {kind for kind, _ in frames}
+        }
+        fields = set().union(
+            *(header_entries(payload) for kind, payload in frames if kind == FrameType.HEADER)
+        )
     except (BsmError, TypeError, ValueError):
         return sorted(found)
     return sorted(found | {name for name in FIELD_NEEDS if HEADER_FIELDS[name].key in fields})
@@ -142,11 +162,15 @@ def needs_of(stream: bytes) -> list[str]:
 def write_needs() -> None:
     """Write which documents each vector needs, of all folders."""
     needs = {vector.name: needs_of(vector.stream.read_bytes()) for vector in read_manifest()}
-    lines = (f" {json.dumps(name)}: {json.dumps(documents)}" for name, documents in sorted(needs.items()))
+    lines = (
+        f" {json.dumps(name)}: {json.dumps(documents)}" for name, documents in sorted(needs.items())
+    )
     NEEDS.write_text("{\n" + ",\n".join(lines) + "\n}\n")
 
 
-def write_vectors(streams: dict[Vector, bytes], meshes: dict[Vector, tuple[Any, Any, Arrays]]) -> None:
+def write_vectors(
+    streams: dict[Vector, bytes], meshes: dict[Vector, tuple[Any, Any, Arrays]]
+) -> None:
     """Add to the next version's folder."""
     for vector, stream in streams.items():
         vector.stream.write_bytes(stream)
@@ -156,6 +180,7 @@ def write_vectors(streams: dict[Vector, bytes], meshes: dict[Vector, tuple[Any, 
         vector.expected.write_bytes(buffer.getvalue())
     manifest = json.loads((NEXT / MANIFEST).read_text())
     manifest["vectors"] += [
-        {"name": v.name, "probes": v.probes} | ({"error": v.error} if v.error else {}) for v in streams
+        {"name": v.name, "probes": v.probes} | ({"error": v.error} if v.error else {})
+        for v in streams
     ]
     (NEXT / MANIFEST).write_text(json.dumps(manifest, indent=1) + "\n")

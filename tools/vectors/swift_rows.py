@@ -62,32 +62,57 @@ def rows_of(stream: bytes) -> dict[int, SwiftRows]:
     header = next(packet for packet in found if isinstance(packet, Header))
     if any(isinstance(packet, packets.Order) for packet in found):
         return {}
-    declared = {packet.index: packet.declaration for packet in found if isinstance(packet, packets.Declared)}
+    declared = {
+        packet.index: packet.declaration for packet in found if isinstance(packet, packets.Declared)
+    }
     values = [packet for packet in found if isinstance(packet, packets.Values)]
     return {
-        index: _rows_of(mesh, header, declaration, mesh.attributes[index], [v for v in values if v.attribute == index])
+        index: _rows_of(
+            mesh,
+            header,
+            declaration,
+            mesh.attributes[index],
+            [v for v in values if v.attribute == index],
+        )
         for index, declaration in declared.items()
         if declaration.domain != FACE
     }
 
 
 def _rows_of(
-    mesh: TriangleMesh, header: Header, declaration: Declaration, attribute: Attribute, values: list[packets.Values]
+    mesh: TriangleMesh,
+    header: Header,
+    declaration: Declaration,
+    attribute: Attribute,
+    values: list[packets.Values],
 ) -> SwiftRows:
     faces = mesh.faces if attribute.indices is None else attribute.indices
     vertices = np.zeros(declaration.rows, np.int64)
     vertices[faces] = mesh.faces
     places = None
     if header.grid:
-        on_grid = np.rint((mesh.positions - np.array(header.center)) / header.scale).astype(np.int64)
+        on_grid = np.rint((mesh.positions - np.array(header.center)) / header.scale).astype(
+            np.int64
+        )
         places = cast(Rows, on_grid[vertices].tolist())
     pieces = list[int]()
     for most in declaration.largest:
         wide = most > MOST_WHOLE
         pieces += [most >> PIECE_BITS, (1 << PIECE_BITS) - 1] if wide else [most]
-    groups = [pieces[start : start + MOST_COMPONENTS] for start in range(0, len(pieces), MOST_COMPONENTS)]
+    groups = [
+        pieces[start : start + MOST_COMPONENTS] for start in range(0, len(pieces), MOST_COMPONENTS)
+    ]
     chunks = [(_payloads(packet.data, len(groups)), packet.count) for packet in values]
-    return SwiftRows(declaration, header.swift, faces.tolist(), vertices.tolist(), places, groups, chunks, attribute)
+    return SwiftRows(
+        declaration,
+        header.swift,
+        faces.tolist(),
+        vertices.tolist(),
+        places,
+        groups,
+        chunks,
+        attribute,
+    )
 
 
 def _payloads(data: bytes, count: int) -> list[bytes]:

@@ -26,7 +26,9 @@ def _reference() -> Any:
     """Load a copy of the reference decoder, which stands outside of any package."""
     sys.path.insert(0, str(SPEC))
     try:
-        spec = importlib.util.spec_from_file_location("traced_reference_decoder", SPEC / "reference_decoder.py")
+        spec = importlib.util.spec_from_file_location(
+            "traced_reference_decoder", SPEC / "reference_decoder.py"
+        )
         assert spec is not None and spec.loader is not None
         module = importlib.util.module_from_spec(spec)
         spec.loader.exec_module(module)
@@ -49,7 +51,12 @@ def _trace(stream: bytes) -> Iterator[dict[str, Any]]:
     class TracedSolver(solver):  # type: ignore[valid-type,misc]
         def iterate(self, start: npt.NDArray[Any], solutions: int) -> npt.NDArray[Any]:
             entry = blocks[-1]
-            entry |= {"order": self.order, "inverse": self.d, "start": start, "first": self.solve(start[self.order])}
+            entry |= {
+                "order": self.order,
+                "inverse": self.d,
+                "start": start,
+                "first": self.solve(start[self.order]),
+            }
             result: npt.NDArray[Any] = super().iterate(start, solutions)
             entry["dictionary"] = result
             return result
@@ -59,7 +66,11 @@ def _trace(stream: bytes) -> Iterator[dict[str, Any]]:
         blocks[-1]["orthonormal"].append(result)
         return result
 
-    reference.surroundings, reference.Solver, reference.onorm = traced_surroundings, TracedSolver, traced_onorm
+    reference.surroundings, reference.Solver, reference.onorm = (
+        traced_surroundings,
+        TracedSolver,
+        traced_onorm,
+    )
     reference.decode(stream)
     yield from blocks
 

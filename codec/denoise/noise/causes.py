@@ -21,7 +21,8 @@ from bsm.codec.geometry.welding import weld
 FEWEST_VALUES = 16  # with fewer different values of a coordinate, a grid looks like a few planes
 NEAR = 0.02  # distance from a multiple, in steps, that the six or seven digits of files explain
 SAME = 1e-6  # values closer together, as a share of the extent, are one value
-SPREADS = 3  # averagings that part vertices that rounding has merged: faces without area tell no normal
+# Averagings that part vertices that rounding has merged: faces without area tell no normal.
+SPREADS = 3
 FEW_VALUES = 4  # of a coordinate that lies on half-cells
 HALFWAY = 0.98  # share of the vertices of a binary volume that lie halfway between two cells
 ALIKE, TOGETHER = 1e-3, 1e-4  # directions that are one, and coordinates of one level, in extents
@@ -39,7 +40,9 @@ class Spacing:
     def round(self, positions: Positions, offset: Floats) -> Positions:
         """Positions in the middle of their cells, of which one has its middle at `offset`, shape (3,)."""
         safe = np.where(self.steps > 0.0, self.steps, 1.0)
-        return np.where(self.steps > 0.0, np.round((positions - offset) / safe) * safe + offset, positions)
+        return np.where(
+            self.steps > 0.0, np.round((positions - offset) / safe) * safe + offset, positions
+        )
 
     def levels(self, normals: Floats) -> Floats:
         """Standard deviation along normals, shape (n, 3), of what rounding takes away or adds, shape (n,)."""
@@ -137,7 +140,9 @@ class Reach:
             along = np.einsum("ij,ij->i", way, normals)[:, None] * normals
             across = way - along
             # Motion along the surface is damped and not cut, so that no vertex sticks at a bound.
-            way = along + across / (1.0 + np.linalg.norm(across, axis=1, keepdims=True) / (ASIDE * level))
+            way = along + across / (
+                1.0 + np.linalg.norm(across, axis=1, keepdims=True) / (ASIDE * level)
+            )
         far = np.linalg.norm(way, axis=1, keepdims=True) / (FARTHEST * level)
         return np.asarray(noisy + way / np.maximum(far, 1.0))
 
@@ -173,7 +178,9 @@ class Cells(Box):
                 weights /= weights.max()
             # A step above the inverse of the curvature diverges. The start is fixed, so that results are.
             start = np.random.default_rng(0).normal(size=topology.n)
-            curve = linalg.svds(bends.multiply(np.sqrt(weights)), 1, v0=start, return_singular_vectors=False)
+            curve = linalg.svds(
+                bends.multiply(np.sqrt(weights)), 1, v0=start, return_singular_vectors=False
+            )
             step = 1.0 / max(float(curve[0]) ** 2, 1e-300)
             ahead, pace = places, 1.0
             for _ in range(STEPS):
@@ -257,7 +264,9 @@ def _frames(positions: Positions, topology: Topology) -> list[Floats]:
     ways = (positions[np.roll(faces, 1, axis=1)] - positions[faces]).reshape(-1, 3)
     lengths = np.linalg.norm(ways, axis=1, keepdims=True)
     ways = ways[lengths[:, 0] > 0.0] / lengths[lengths[:, 0] > 0.0]
-    ways *= np.where(np.take_along_axis(ways, np.abs(ways).argmax(axis=1)[:, None], axis=1) < 0.0, -1.0, 1.0)
+    ways *= np.where(
+        np.take_along_axis(ways, np.abs(ways).argmax(axis=1)[:, None], axis=1) < 0.0, -1.0, 1.0
+    )
     keys, counts = np.unique(np.round(ways / ALIKE).astype(np.int64), axis=0, return_counts=True)
     order = np.argsort(-counts, kind="stable")[: 2 * DIRECTIONS]
     directions = np.zeros((0, 3))
@@ -288,7 +297,9 @@ def lattice_step(positions: Positions) -> float:
     planes = []
     for column in positions.T:
         # Marching cubes leave two coordinates of each vertex on planes of the lattice: heaps of equal values.
-        values, counts = np.unique(np.round((column - column.min()) / (SAME * extent or 1.0)), return_counts=True)
+        values, counts = np.unique(
+            np.round((column - column.min()) / (SAME * extent or 1.0)), return_counts=True
+        )
         # Symmetric shapes have smaller heaps beside.
         usual = np.median(np.repeat(counts, counts))
         planes.append(values[counts > LATTICE_USUAL * usual] * SAME * extent)

@@ -50,7 +50,11 @@ class Finding:
         """The finding with a bound to where noise that is not bound otherwise may have moved vertices from."""
         free = self.bound is None and self.kind in ("white", "correlated", "local")
         # Fine levels hold little of noise that neighbors share: about the square of their share in the finest.
-        return replace(self, bound=Reach(topology, self.levels / self.whiteness**2, slides)) if free else self
+        return (
+            replace(self, bound=Reach(topology, self.levels / self.whiteness**2, slides))
+            if free
+            else self
+        )
 
 
 TENTH_ACROSS = 0.4590  # a tenth of the lengths of two standard normal numbers is below this
@@ -88,7 +92,8 @@ def estimate_noise(positions: Positions, smooth: Positions, probe: Probe) -> Noi
     return NoiseLevel(normal, min(normal, across))
 
 
-MOST_STEPS = 12  # averagings for noise that neighbors share, and those for the pixels of a camera's window
+# Averagings for noise that neighbors share, and those for the pixels of a camera's window.
+MOST_STEPS = 12
 SHARED = 0.6  # strength of noise that the pixels of a window share, over that of single pixels
 
 
@@ -98,7 +103,9 @@ class Synthesis:
     def __init__(self, finding: Finding, probe: Probe, tangential: float) -> None:
         self._finding, self._probe, self._tangential = finding, probe, tangential
         correlated = finding.kind in ("correlated", "fused")
-        self._steps, self._strength = _correlation(finding.whiteness, probe) if correlated else (0, 1.0)
+        self._steps, self._strength = (
+            _correlation(finding.whiteness, probe) if correlated else (0, 1.0)
+        )
 
     def draw(self, positions: Positions, seed: int) -> Positions:
         finding = self._finding
@@ -122,7 +129,9 @@ class Synthesis:
         if self._steps:
             # Averaging takes strength away, and the level is that of fine frequencies, not of all.
             amount *= self._strength / amount.std()
-        across = np.where(finding.levels > 0.0, self._tangential, 0.0)[:, None] * (white - along * normals)
+        across = np.where(finding.levels > 0.0, self._tangential, 0.0)[:, None] * (
+            white - along * normals
+        )
         return np.asarray(positions + finding.levels[:, None] * amount * normals + across)
 
 
@@ -132,7 +141,9 @@ def _correlation(whiteness: float, probe: Probe) -> tuple[int, float]:
     strengths = []
     for _ in range(MOST_STEPS):
         noise = probe.correlated(noise, 1)
-        fine, finest = (values[probe.counted].std() for values in (probe.fine(noise), probe.finest(noise)))
+        fine, finest = (
+            values[probe.counted].std() for values in (probe.fine(noise), probe.finest(noise))
+        )
         strengths.append((float(finest / fine), float(noise[probe.counted].std() / fine)))
     steps = min(range(MOST_STEPS), key=lambda index: abs(strengths[index][0] - whiteness))
     return steps + 1, strengths[steps][1]

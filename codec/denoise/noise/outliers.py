@@ -18,7 +18,8 @@ from bsm.codec.geometry.metrics import face_normals, mean_edge_length
 CLEAR, LESS_CLEAR = 0.7, 0.35
 """Share of the energy around it that an outlier explains by itself: no clean mesh tried has more than a few that are
 clear; others are looked for after these."""
-FEWEST, FEWEST_SHARE, MOST_SHARE = 12, 0.004, 0.2  # how many are believed, as shares of the vertices as well
+# How many are believed, as shares of the vertices as well.
+FEWEST, FEWEST_SHARE, MOST_SHARE = 12, 0.004, 0.2
 ONE_SIDED = 0.5
 DISTINCT = 4.0  # smallest displacement looked for, over what calm surroundings show
 STRAY, SPIKY = 1.2, 0.75
@@ -80,11 +81,17 @@ def _distances(positions: Positions, probe: Probe) -> Floats:
     starts, members = probe.topology.neighbors
     sizes = np.diff(starts)
     owners = np.repeat(np.arange(len(positions)), sizes)
-    middle = np.stack([grouped_quantiles(column, owners, sizes, 0.5) for column in positions[members].T], axis=1)
-    spread = grouped_quantiles(np.linalg.norm(positions[members] - middle[owners], axis=1), owners, sizes, 0.5)
+    middle = np.stack(
+        [grouped_quantiles(column, owners, sizes, 0.5) for column in positions[members].T], axis=1
+    )
+    spread = grouped_quantiles(
+        np.linalg.norm(positions[members] - middle[owners], axis=1), owners, sizes, 0.5
+    )
     off = np.linalg.norm(positions - middle, axis=1)
     # The median of the neighbors' distances: a mean would follow the stray among them.
-    return np.asarray(off / np.where(probe.counted, np.maximum(spread, 1e-12 * off + 1e-300), np.inf))
+    return np.asarray(
+        off / np.where(probe.counted, np.maximum(spread, 1e-12 * off + 1e-300), np.inf)
+    )
 
 
 def _peeled(positions: Positions, probe: Probe) -> Positions:
@@ -99,14 +106,18 @@ def _peeled(positions: Positions, probe: Probe) -> Positions:
     rest, amounts, most = seen.copy(), np.zeros(len(positions)), np.inf
     # The clearest first: once their patterns are taken away, fainter ones nearby can be seen.
     for share in (CLEAR, LESS_CLEAR):
-        calm = np.nan_to_num(probe.levels(rest / np.where(gain > 0.0, gain, np.inf)))[probe.windows.labels]
+        calm = np.nan_to_num(probe.levels(rest / np.where(gain > 0.0, gain, np.inf)))[
+            probe.windows.labels
+        ]
         least = np.maximum(FAINTEST, DISTINCT * calm / np.sqrt(energy))
         while True:
             fit = (transposed @ rest) / energy
             explained = np.where(probe.counted, fit**2 * energy, 0.0)
             # Only the best in its surroundings is peeled: neighbors would explain the same pattern again.
             best = support.multiply(explained).max(axis=1).toarray().ravel()
-            found = (explained > 0.0) & (explained >= best) & (explained >= share * (support @ rest**2))
+            found = (
+                (explained > 0.0) & (explained >= best) & (explained >= share * (support @ rest**2))
+            )
             found &= (np.abs(fit) > least) & (np.abs(fit) < most)
             if not found.any():
                 break

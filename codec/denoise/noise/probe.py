@@ -22,14 +22,18 @@ angle, twice 31 %, nearly all of it on one of four meshes."""
 FEWEST_IN_WINDOW = 20  # vertices of a window that say anything
 
 
-def grouped_quantiles(values: Floats, groups: npt.NDArray[Any], sizes: npt.NDArray[Any], share: float) -> Floats:
+def grouped_quantiles(
+    values: Floats, groups: npt.NDArray[Any], sizes: npt.NDArray[Any], share: float
+) -> Floats:
     """Interpolated quantiles of the values of each group; any number for an empty one."""
     # One sort for all groups, instead of a loop over thousands of them.
     ordered = np.append(values[np.lexsort((values, groups))], 0.0)
     place = share * np.maximum(sizes - 1, 0)
     below = np.floor(place).astype(np.int64)
     first, rest = np.cumsum(sizes) - sizes + below, place - below
-    return np.asarray((1.0 - rest) * ordered[first] + rest * ordered[np.minimum(first + 1, len(values))])
+    return np.asarray(
+        (1.0 - rest) * ordered[first] + rest * ordered[np.minimum(first + 1, len(values))]
+    )
 
 
 class Windows:
@@ -75,7 +79,9 @@ class Probe:
         lonely = degrees == 0
         weights = np.repeat(1.0 / np.maximum(degrees, 1), degrees)
         average = sparse.csr_matrix((weights, members, starts), shape=(topology.n, topology.n))
-        self.average = average + sparse.diags(lonely.astype(np.float64)) if lonely.any() else average
+        self.average = (
+            average + sparse.diags(lonely.astype(np.float64)) if lonely.any() else average
+        )
         # At a border the Laplacian sees only one side, and finds curvature where there is none.
         self.counted: Mask = (degrees >= 3) & ~topology.boundary
 
@@ -97,8 +103,12 @@ class Probe:
     def _gains(self) -> Floats:
         """Strength of white noise after the finest and the broad filter, shape (2, n)."""
         # Random signs measure the gain of a filter without making its matrix, which would be nearly full.
-        signs = np.random.default_rng(0).choice(np.array([-1.0, 1.0]), (self.topology.n, GAIN_PROBES))
-        gains = np.sqrt([np.square(filtered(signs)).mean(axis=1) for filtered in (self._repeated, self._band)])
+        signs = np.random.default_rng(0).choice(
+            np.array([-1.0, 1.0]), (self.topology.n, GAIN_PROBES)
+        )
+        gains = np.sqrt(
+            [np.square(filtered(signs)).mean(axis=1) for filtered in (self._repeated, self._band)]
+        )
         return np.where(gains > 0.0, gains, np.inf)
 
     def fine(self, values: Floats) -> Floats:

@@ -14,7 +14,14 @@ import numpy as np
 from scipy.cluster.vq import kmeans
 
 from bsm.codec.arrays import Floats, Mask, Positions
-from bsm.codec.denoise.noise.causes import FARTHEST, Box, Spacing, find_cells, find_grid, lattice_step
+from bsm.codec.denoise.noise.causes import (
+    FARTHEST,
+    Box,
+    Spacing,
+    find_cells,
+    find_grid,
+    lattice_step,
+)
 from bsm.codec.denoise.noise.finding import Finding
 from bsm.codec.denoise.noise.probe import FEWEST_IN_WINDOW, SHARE, Probe, Windows
 from bsm.codec.denoise.noise.view import find_view, pixel
@@ -31,16 +38,20 @@ RULES = {
 """Of each kind, the weights of `measures` and a constant: noise is believed if the sum is positive. `tools.train_noise`
 fits them, and names the meshes that it holds out."""
 FAINTEST = 0.03  # level in mean edges, or widths of pixels, below which nothing is suspected
-FAINTEST_SHARED, MUCH_SHARED = 0.024, 0.6  # if whiteness is below the second: fine levels hold little of such noise
+# If whiteness is below the second: fine levels hold little of such noise.
+FAINTEST_SHARED, MUCH_SHARED = 0.024, 0.6
 FEWEST_WINDOWS = 5  # for an estimate
 WHITE = 0.82  # whiteness below which noise is correlated
 NEARBY = 4  # rings of a vertex that tell the side where noise ends
 NARROWER = 1.04
 """What broad filters may see of views fused on a lattice, over their level: .9 to 1.0; of fields without noise they see
 1.05 (a fractal) to 1.9."""
-ONE_CELL = 0.9  # share of the stairs of a binary volume, from which on all its walls are one cell thick
-ROUNDED_ZEROS = 0.15  # largest share of vertices that show nothing of rounding: shapes drawn on a grid have more
-AXIS_PASSES = 8  # averagings before the normals that tell sides from ends: noise along an axis turns normals far
+# Share of the stairs of a binary volume, from which on all its walls are one cell thick.
+ONE_CELL = 0.9
+# Largest share of vertices that show nothing of rounding: shapes drawn on a grid have more.
+ROUNDED_ZEROS = 0.15
+# Averagings before the normals that tell sides from ends: noise along an axis turns normals far.
+AXIS_PASSES = 8
 AXIS_ALONE, AXIS_EVEN = 1.25, (0.55, 1.7)
 """Noise along an axis over that across; and on sides along the axis over that at its ends: noise along normals reads 0
 to 0.8 there, triangles that are longer one way 1.8 and more."""
@@ -52,10 +63,12 @@ DEPTH_WORTH = 0.7  # of noise that grows with depth: the rest of the spread
 
 ASIDE = 0.2  # largest median of values over their levels: noise lies on both sides
 HEAP = 1.6  # largest share of values about zero, as a multiple of the normal distribution's
-LEVEL_SPREAD = 0.92  # chance makes levels of windows of w vertices spread by about this over sqrt(w)
+# Chance makes levels of windows of w vertices spread by about this over sqrt(w).
+LEVEL_SPREAD = 0.92
 MEASURES = ("level", "whiteness", "off", "uneven", "broadly uneven", "irregular", "few")
 MANY_WINDOWS = 25  # fewer say less about the spread of levels
-SLOPE, SHIFT = 0.6, 0.15  # of the broad level over the whiteness (logarithms), for all lengths of correlation
+# Of the broad level over the whiteness (logarithms), for all lengths of correlation.
+SLOPE, SHIFT = 0.6, 0.15
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,14 +90,21 @@ class Evidence:
     def whiteness(self, windows: Mask) -> float:
         """Level of the finest frequencies over the fine ones: 1 for white noise, less if neighbors share it."""
         # The lower quarter: creases are in the upper parts of both.
-        return float(np.quantile(self.finest[windows], 0.25) / max(np.quantile(self.levels[windows], 0.25), 1e-9))
+        return float(
+            np.quantile(self.finest[windows], 0.25)
+            / max(np.quantile(self.levels[windows], 0.25), 1e-9)
+        )
 
     def is_random(self, windows: Mask) -> bool:
         """Whether counted vertices of these windows lie on both sides of the surface, and no heap of them on it."""
         chosen = windows[self.probe.windows.labels] & self.probe.counted
-        values = self.along[chosen] / np.maximum(self.levels[self.probe.windows.labels[chosen]], 1e-9)
+        values = self.along[chosen] / np.maximum(
+            self.levels[self.probe.windows.labels[chosen]], 1e-9
+        )
         # The share of a standard normal distribution within a tenth of a deviation is 0.0797.
-        return bool(abs(np.median(values)) < ASIDE and (np.abs(values) < 0.1).mean() < HEAP * 0.0797)
+        return bool(
+            abs(np.median(values)) < ASIDE and (np.abs(values) < 0.1).mean() < HEAP * 0.0797
+        )
 
     def measures(self, windows: Mask) -> Floats:
         """Return what rules weigh, in the order of `MEASURES`; level, whiteness and irregularity are logarithms."""
@@ -200,8 +220,12 @@ def _rounded(positions: Positions, evidence: Evidence) -> Finding | None:
     unmoved = np.abs(evidence.along) <= 0.1 * expected
     if level < FAINTEST or unmoved[evidence.probe.counted].mean() > ROUNDED_ZEROS:
         return None
-    reason = f"positions rounded to a grid of {float(grid.steps.max()) / evidence.edge:.2f} mean edges"
-    return Finding("grid", level * evidence.edge, expected * evidence.edge, evidence.edge, reason, bound=grid)
+    reason = (
+        f"positions rounded to a grid of {float(grid.steps.max()) / evidence.edge:.2f} mean edges"
+    )
+    return Finding(
+        "grid", level * evidence.edge, expected * evidence.edge, evidence.edge, reason, bound=grid
+    )
 
 
 def _fused(positions: Positions, evidence: Evidence) -> Finding | None:
@@ -215,7 +239,9 @@ def _fused(positions: Positions, evidence: Evidence) -> Finding | None:
         return None
     amount = np.full(len(positions), level * evidence.edge)
     reason = "noise of a volume, or of views fused on a lattice"
-    return Finding("fused", level * evidence.edge, amount, evidence.edge, reason, uneven=uneven, clear=False)
+    return Finding(
+        "fused", level * evidence.edge, amount, evidence.edge, reason, uneven=uneven, clear=False
+    )
 
 
 def _seen(positions: Positions, evidence: Evidence) -> Suspect | None:
@@ -224,17 +250,23 @@ def _seen(positions: Positions, evidence: Evidence) -> Suspect | None:
     view = find_view(positions, probe)
     if view is None:
         return None
-    along = look(probe, view.heights(positions, probe.topology)[:, None], np.ones((len(positions), 1)), edge)
+    along = look(
+        probe, view.heights(positions, probe.topology)[:, None], np.ones((len(positions), 1)), edge
+    )
     level = along.level(probe.windows.valid)
     rays = positions - view.eye
     width = pixel(view.plane(positions), probe.topology) * (rays @ view.axis)
     amount = level * width * np.abs(np.einsum("ij,ij->i", unit(rays), evidence.normals))
     reason, view = "noise of a camera, along its rays", replace(view, level=level)
     reason += ", with depths in steps" if view.stepped else ""
-    return _suspect("view", along, Finding("view", float(np.median(amount)), amount, edge, reason, view=view))
+    return _suspect(
+        "view", along, Finding("view", float(np.median(amount)), amount, edge, reason, view=view)
+    )
 
 
-def _suspect(rule: str, evidence: Evidence, finding: Finding, windows: Mask | None = None) -> Suspect | None:
+def _suspect(
+    rule: str, evidence: Evidence, finding: Finding, windows: Mask | None = None
+) -> Suspect | None:
     """Return the suspect if values in these windows are as random as noise."""
     chosen = evidence.probe.windows.valid if windows is None else windows
     faintest = FAINTEST
@@ -251,7 +283,10 @@ def _one_axis(positions: Positions, evidence: Evidence) -> Suspect | None:
     fine = probe.fine(positions / edge)
     length = np.linalg.norm(fine, axis=1)
     # A few creases must not set the direction, so long vectors are shortened.
-    calm = fine * np.minimum(1.0, np.quantile(length[chosen], 0.8) / np.maximum(length, 1e-300))[:, None]
+    calm = (
+        fine
+        * np.minimum(1.0, np.quantile(length[chosen], 0.8) / np.maximum(length, 1e-300))[:, None]
+    )
     values, vectors = np.linalg.eigh(calm[chosen].T @ calm[chosen] / chosen.sum())
     if values[2] < AXIS_ALONE**2 * values[1]:
         return None
@@ -263,7 +298,11 @@ def _one_axis(positions: Positions, evidence: Evidence) -> Suspect | None:
     beside, ends = (chosen & (facing < 0.35)), (chosen & (facing >= 0.7))
     if min(beside.sum(), ends.sum()) < FEWEST_IN_WINDOW:
         return None
-    seen = ((fine @ axis)[beside], (fine @ axis)[ends], np.einsum("ij,ij->i", fine, normals)[beside])
+    seen = (
+        (fine @ axis)[beside],
+        (fine @ axis)[ends],
+        np.einsum("ij,ij->i", fine, normals)[beside],
+    )
     side, end, bare = (float(np.quantile(np.abs(values), SHARE)) for values in seen)
     if not AXIS_EVEN[0] * end < side < AXIS_EVEN[1] * end or bare > AXIS_BARE * side:
         return None
@@ -280,7 +319,9 @@ def _one_axis(positions: Positions, evidence: Evidence) -> Suspect | None:
         reason += f", {growth.max() / growth.min():.1f} times as strong at one end as at the other"
     facing = np.abs(evidence.normals @ axis)
     bound = Box(axis[None], FARTHEST * amount.max(keepdims=True))
-    finding = Finding("axis", level * edge, amount * facing, edge, reason, axis=axis, growth=growth, bound=bound)
+    finding = Finding(
+        "axis", level * edge, amount * facing, edge, reason, axis=axis, growth=growth, bound=bound
+    )
     return _suspect("axis", along, finding)
 
 
@@ -301,7 +342,9 @@ def _everywhere(positions: Positions, evidence: Evidence) -> Suspect | None:
     kind = "correlated" if whiteness < WHITE else "white"
     amount = np.full(len(positions), level * evidence.edge)
     reason = "noise that neighbors share, all over" if kind == "correlated" else "noise all over"
-    finding = Finding(kind, level * evidence.edge, amount, evidence.edge, reason, whiteness=whiteness)
+    finding = Finding(
+        kind, level * evidence.edge, amount, evidence.edge, reason, whiteness=whiteness
+    )
     return _suspect(kind, evidence, finding)
 
 
@@ -327,5 +370,7 @@ def _here_and_there(positions: Positions, evidence: Evidence) -> Suspect | None:
     inside[unsure] = nearby[unsure] > (0.5 * level) ** 2
     amount = np.where(inside, level * evidence.edge, 0.0)
     share = f"noise in {100.0 * inside.mean():.0f} % of the mesh"
-    finding = Finding("local", level * evidence.edge, amount, evidence.edge, share, clear=weak < FAINTEST)
+    finding = Finding(
+        "local", level * evidence.edge, amount, evidence.edge, share, clear=weak < FAINTEST
+    )
     return _suspect("local", evidence, finding, inner)

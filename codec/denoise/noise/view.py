@@ -48,7 +48,9 @@ class View:
     def flattened(self, positions: Positions, topology: Topology, strength: float) -> Positions:
         given = self.heights(positions, topology)[:, None]
         plane = self.plane(positions)
-        heights = fewer_bends(given, plane / pixel(plane, topology), topology, strength * self.level)
+        heights = fewer_bends(
+            given, plane / pixel(plane, topology), topology, strength * self.level
+        )
         return self.at(positions, given[:, 0], heights[:, 0])
 
 
@@ -68,18 +70,24 @@ def find_view(positions: Positions, probe: Probe) -> View | None:
     length = np.linalg.norm(off, axis=1)
     if not extent > 0.0 or not length.any():
         return None
-    off *= np.minimum(1.0, np.quantile(length[probe.counted], 0.8) / np.maximum(length, 1e-300))[:, None]
+    off *= np.minimum(1.0, np.quantile(length[probe.counted], 0.8) / np.maximum(length, 1e-300))[
+        :, None
+    ]
     # Noise of a camera is along its rays, so it is strongest along the axis of the camera.
     main = np.linalg.eigh(off.T @ off)[1][:, 2]
     # Noise along rays p - c: the eye c is where the lines along the noise come closest to each other.
     square = np.square(off).sum(axis=1)
     matrix = square.sum() * np.eye(3) - off.T @ off
-    eye = np.linalg.lstsq(matrix, square @ positions - off.T @ np.einsum("ij,ij->i", off, positions), rcond=1e-12)[0]
+    eye = np.linalg.lstsq(
+        matrix, square @ positions - off.T @ np.einsum("ij,ij->i", off, positions), rcond=1e-12
+    )[0]
     # Scans are often given in the frame of the camera, with the eye at the origin. Otherwise it is found from the
     # noise, or the camera is so far away that rays are parallel.
     eyes = [np.zeros(3), eye, *(middle - FAR * extent * axis for axis in (main, *np.eye(3)))]
     views = [View(eye, (middle - eye) / (np.linalg.norm(middle - eye) or 1.0)) for eye in eyes]
-    irregular, best = min(((_irregular(view, positions, probe), view) for view in views), key=itemgetter(0))
+    irregular, best = min(
+        ((_irregular(view, positions, probe), view) for view in views), key=itemgetter(0)
+    )
     if irregular > REGULAR:
         return None
     a, b, c = best.plane(positions)[topology.faces.T]

@@ -35,7 +35,8 @@ from bsm.codec.static.preamble_encoding import Draft
 
 Values = npt.NDArray[Any]
 CHUNK = 1 << 15  # values of a frame
-WAYS = ("default", "exact", "bits", "bound", "share", "angle", "recompute", "none")  # as library/bsmenc.h numbers them
+# As library/bsmenc.h numbers them.
+WAYS = ("default", "exact", "bits", "bound", "share", "angle", "recompute", "none")
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,7 +52,10 @@ def recomputed(surface: Surface, positions: Matrix) -> Matrix:
     a, b, c = positions[surface.vertices][surface.faces.T]
     # The length of the cross product is the area, so large faces count more without a weight.
     across, count = np.cross(b - a, c - a), len(surface.vertices)
-    sums = (np.array([np.bincount(corner, of_axis, count) for of_axis in across.T]) for corner in surface.faces.T)
+    sums = (
+        np.array([np.bincount(corner, of_axis, count) for of_axis in across.T])
+        for corner in surface.faces.T
+    )
     normals = sum(sums, np.zeros((3, count))).T
     lengths = np.linalg.norm(normals, axis=1, keepdims=True)
     # Some direction for values of no face, the same everywhere; no viewer shows it.
@@ -86,7 +90,11 @@ class PreparedAttribute:
     def at_corners(self) -> Matrix:
         """What `AttributeLook` is given: the values of a decoder at corners, shape (m, 3 c)."""
         values, declaration = self.values, self.declaration
-        corners = values[:, None].repeat(3, axis=1) if declaration.domain == FACE else values[self.surface.faces]
+        corners = (
+            values[:, None].repeat(3, axis=1)
+            if declaration.domain == FACE
+            else values[self.surface.faces]
+        )
         return painted(SEMANTICS[declaration.semantic], corners)
 
     # A promise of the look must hold with the normals that viewers will have, which depend on decoded positions.
@@ -118,8 +126,12 @@ def carry(
     """Attributes in the order of coding, on coded faces; `swift` as in the header."""
     chosen = tuple(chosen)
     if len(chosen) > MOST_ATTRIBUTES:
-        raise OptionError(f"a stream has {MOST_ATTRIBUTES} attributes at most, not {len(chosen)}: leave some out")
-    return tuple(_carry(place, faces, not number, swift, *each) for number, each in enumerate(chosen))
+        raise OptionError(
+            f"a stream has {MOST_ATTRIBUTES} attributes at most, not {len(chosen)}: leave some out"
+        )
+    return tuple(
+        _carry(place, faces, not number, swift, *each) for number, each in enumerate(chosen)
+    )
 
 
 def _carry(
@@ -130,27 +142,47 @@ def _carry(
     domain, way = DOMAINS.index(attribute.domain), WAYS.index(quality.way)
     values = np.ascontiguousarray(attribute.values)
     # All in C, where the order of coding is: corners, seams and integers in one pass, as the C encoder has it, too.
-    results = place.carry(first, attribute.name, values, kind, domain, semantic, attribute.indices, way, quality.amount)
+    results = place.carry(
+        first,
+        attribute.name,
+        values,
+        kind,
+        domain,
+        semantic,
+        attribute.indices,
+        way,
+        quality.amount,
+    )
     numbers, seams, pieces, decoded, own_faces, at, leans, outcome, directed = results
     declaration = Declaration(name=attribute.name, **values_of(Declaration, numbers))
     surface = Surface(faces if own_faces is None else own_faces, at)
     what = "" if attribute.semantic in (attribute.name, "generic") else f"{attribute.semantic} "
-    became = "recomputed from the decoded mesh" if declaration.coding == RECOMPUTED else noted(*outcome)
+    became = (
+        "recomputed from the decoded mesh" if declaration.coding == RECOMPUTED else noted(*outcome)
+    )
     note = f"{attribute.name}: {what}per {attribute.domain}, {became}"
     tangents = None
     if swift and directed is not None:
         tangents = GivenTangents(*directed, int(quality.amount))
-    return PreparedAttribute(declaration, seams, surface, pieces, swift, leans, decoded, note, tangents)
+    return PreparedAttribute(
+        declaration, seams, surface, pieces, swift, leans, decoded, note, tangents
+    )
 
 
-def with_turns(carried: tuple[PreparedAttribute, ...], places: Levels | None) -> tuple[PreparedAttribute, ...]:
+def with_turns(
+    carried: tuple[PreparedAttribute, ...], places: Levels | None
+) -> tuple[PreparedAttribute, ...]:
     """The attributes as a stream has them with positions at these places of a grid, if it has one."""
     if places is None:
         return carried
-    return tuple(_turned(prepared, carried[:number], places) for number, prepared in enumerate(carried))
+    return tuple(
+        _turned(prepared, carried[:number], places) for number, prepared in enumerate(carried)
+    )
 
 
-def _turned(prepared: PreparedAttribute, before: Sequence[PreparedAttribute], places: Levels) -> PreparedAttribute:
+def _turned(
+    prepared: PreparedAttribute, before: Sequence[PreparedAttribute], places: Levels
+) -> PreparedAttribute:
     """Tangents as turns about their normals, from where the texture points; others as they are."""
     tangents, surface = prepared.tangents, prepared.surface
     normals = _number_of(before, _is_normal)
@@ -185,10 +217,14 @@ def _turned(prepared: PreparedAttribute, before: Sequence[PreparedAttribute], pl
     owner = prepared.note.partition(", ")[0]
     note = f"{owner}, {noted(error, 0.0, tangents.bits, 0, False)}"
     kind = prepared.values.dtype
-    return replace(prepared, declaration=declaration, pieces=words, values=values.astype(kind), note=note)
+    return replace(
+        prepared, declaration=declaration, pieces=words, values=values.astype(kind), note=note
+    )
 
 
-def _number_of(attributes: Sequence[PreparedAttribute], holds: Callable[[Declaration], bool]) -> int | None:
+def _number_of(
+    attributes: Sequence[PreparedAttribute], holds: Callable[[Declaration], bool]
+) -> int | None:
     return next((number for number, a in enumerate(attributes) if holds(a.declaration)), None)
 
 
@@ -197,7 +233,11 @@ def _is_normal(declaration: Declaration) -> bool:
 
 
 def _is_coordinate(declaration: Declaration) -> bool:
-    plain = declaration.coding == LEVELS and declaration.semantic == TEXCOORD and declaration.domain != FACE
+    plain = (
+        declaration.coding == LEVELS
+        and declaration.semantic == TEXCOORD
+        and declaration.domain != FACE
+    )
     return plain and len(declaration.largest) == 2 and max(declaration.largest) < 1 << 20
 
 
@@ -206,7 +246,9 @@ def noted(error: float, step: float, bits: int, zeros: int, scaled: bool) -> str
     if not bits:
         return f"in steps of {step:g}" if step else f"within {error:.3g}" if error else "exact"
     note = [f"{bits} bits, within {error:.2g} degrees"]
-    return ", ".join([*note, *[f"{zeros} of no length"] * (zeros > 0), *["all of length one now"] * scaled])
+    return ", ".join(
+        [*note, *[f"{zeros} of no length"] * (zeros > 0), *["all of length one now"] * scaled]
+    )
 
 
 def with_attributes(
@@ -231,10 +273,14 @@ def with_attributes(
             for (first, count), data in zip(ranges(declaration.rows, chunk), chunks, strict=True):
                 values.append(packets.Values(index, first, count, data))
         header = replace(header, attributes=len(carried), swift=carried[0].swift)
-    return replace(draft, header=header, body=(*early_metadata, *head, *declared, *body, *values, *images))
+    return replace(
+        draft, header=header, body=(*early_metadata, *head, *declared, *body, *values, *images)
+    )
 
 
-def cheaper(prepared: PreparedAttribute, places: Levels | None, chunk: int) -> tuple[Declaration, tuple[bytes, ...]]:
+def cheaper(
+    prepared: PreparedAttribute, places: Levels | None, chunk: int
+) -> tuple[Declaration, tuple[bytes, ...]]:
     """What an attribute declares, and its chunks."""
     plain = prepared.plain if chunk == CHUNK else prepared.chunks(None, chunk)
     # Values may follow the positions on a grid, as painted-on coordinates do, or not. Both are tried; one bit tells.
@@ -250,13 +296,17 @@ def ranges(rows: int, size: int) -> list[tuple[int, int]]:
     return [(first, min(size, rows - first)) for first in range(0, rows, size)]
 
 
-def field_of(declaration: Declaration, surface: Surface, pieces: Levels, places: Levels | None, swift: int) -> Field:
+def field_of(
+    declaration: Declaration, surface: Surface, pieces: Levels, places: Levels | None, swift: int
+) -> Field:
     """The field of the numbers of an attribute, shape (k, pieces), predicted from `places`, shape (n, 3)."""
     leans = int(places is not None or declaration.coding == TANGENTS)
     declared = write_map(entries_of(replace(declaration, leans=leans)))
     vertices = 1 + int(max(surface.faces.max(initial=0), surface.vertices.max(initial=0)))
     field = Field(surface.faces, pieces)
-    field.attribute(declared, vertices if places is None else len(places), surface.vertices, places, swift)
+    field.attribute(
+        declared, vertices if places is None else len(places), surface.vertices, places, swift
+    )
     return field
 
 

@@ -32,7 +32,8 @@ NORMAL_BITS: dict[Grade, int] = {"small": 8, "balanced": 10, "fine": 12}
 COLOR_BITS: dict[Grade, int] = {"small": 8, "balanced": 8, "fine": 16}
 TEXCOORD_BITS: dict[Grade, int] = {"small": 12, "balanced": 12, "fine": 14}
 GENERIC_BITS: dict[Grade, int] = {"small": 16, "balanced": 16, "fine": 20}
-MOST_LABEL, MOST_LABELS = 1 << 24, 1 << 16  # whole numbers that floats hold, and how many of them are labels
+# Whole numbers that floats hold, and how many of them are labels.
+MOST_LABEL, MOST_LABELS = 1 << 24, 1 << 16
 MOVING = {"color": 1.0, "generic": 0.25}
 """Percent of its range that an attribute which changes from frame to frame may be off, see "rms" of `Quality`."""
 
@@ -52,7 +53,9 @@ class Quality:
             raise OptionError(f"an attribute can have 1 to 32 bits, not {self.amount:g}")
 
     def __str__(self) -> str:
-        unit = {"bits": " bits", "share": " %", "rms": " % rms", "angle": " degrees"}.get(self.way, "")
+        unit = {"bits": " bits", "share": " %", "rms": " % rms", "angle": " degrees"}.get(
+            self.way, ""
+        )
         return self.way if self.way in _PLAIN else f"{self.amount:g}{unit}"
 
 
@@ -74,13 +77,17 @@ def parse_quality(text: str) -> Quality:
     )
 
 
-def checked_qualities(choices: Mapping[str, str] | tuple[tuple[str, str], ...]) -> tuple[tuple[str, str], ...]:
+def checked_qualities(
+    choices: Mapping[str, str] | tuple[tuple[str, str], ...],
+) -> tuple[tuple[str, str], ...]:
     """Return the qualities of attributes by name, as pairs; raise `OptionError` for unknown ones."""
     try:
         # Sorted pairs can be compared and hashed, which a frozen class needs.
         pairs = tuple(sorted((str(name), str(quality)) for name, quality in dict(choices).items()))
     except (TypeError, ValueError):
-        raise ArgumentError(f"attributes must be a mapping from names to qualities, not {choices!r}") from None
+        raise ArgumentError(
+            f"attributes must be a mapping from names to qualities, not {choices!r}"
+        ) from None
     for _, text in pairs:
         parse_quality(text)
     return pairs
@@ -88,7 +95,11 @@ def checked_qualities(choices: Mapping[str, str] | tuple[tuple[str, str], ...]) 
 
 def _are_few_and_whole(values: npt.NDArray[Any]) -> bool:
     """Whether floats are labels or ids: whole numbers, and few of them."""
-    is_whole = values.dtype.kind == "f" and (np.abs(values) <= MOST_LABEL).all() and (values == np.rint(values)).all()
+    is_whole = (
+        values.dtype.kind == "f"
+        and (np.abs(values) <= MOST_LABEL).all()
+        and (values == np.rint(values)).all()
+    )
     # Labels that are off by one are wrong, not near. Formats without integers store them as floats.
     return bool(is_whole) and len(distinct(values)) <= MOST_LABELS
 
@@ -120,9 +131,16 @@ def qualities(
             return Quality("rms", MOVING[attribute.semantic])
         if attribute.semantic == "generic" and _are_few_and_whole(attribute.values):
             return Quality("exact")
-        bits = {"normal": NORMAL_BITS, "color": COLOR_BITS, "texcoord": TEXCOORD_BITS, "generic": GENERIC_BITS}
+        bits = {
+            "normal": NORMAL_BITS,
+            "color": COLOR_BITS,
+            "texcoord": TEXCOORD_BITS,
+            "generic": GENERIC_BITS,
+        }
         return (
-            Quality("bits", bits[attribute.semantic][grade]) if attribute.values.dtype.kind == "f" else Quality("exact")
+            Quality("bits", bits[attribute.semantic][grade])
+            if attribute.values.dtype.kind == "f"
+            else Quality("exact")
         )
 
     def meant(attribute: Attribute) -> Quality:
@@ -130,4 +148,8 @@ def qualities(
         still = asked_for.way == "rms" and attribute.name not in moving
         return Quality("share", asked_for.amount) if still else asked_for
 
-    return [(attribute, chosen) for attribute in attributes if (chosen := meant(attribute)).way != "none"]
+    return [
+        (attribute, chosen)
+        for attribute in attributes
+        if (chosen := meant(attribute)).way != "none"
+    ]

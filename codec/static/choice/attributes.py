@@ -21,7 +21,13 @@ from bsm.codec.look.measure import AttributeLook, LookMetric, has_look, own_norm
 from bsm.codec.look.pictures import Normals
 from bsm.codec.progress import Nearing
 from bsm.codec.static.attributes.encoding import PreparedAttribute, carry, with_attributes
-from bsm.codec.static.attributes.quality import LEAST_NORMAL_BITS, MOST_BITS, MOST_NORMAL_BITS, Quality, qualities
+from bsm.codec.static.attributes.quality import (
+    LEAST_NORMAL_BITS,
+    MOST_BITS,
+    MOST_NORMAL_BITS,
+    Quality,
+    qualities,
+)
 from bsm.codec.static.choice.bounds import Bounds, Measures, trial_of
 from bsm.codec.static.choice.search import Search
 from bsm.codec.static.choice.trace import Trace
@@ -32,7 +38,8 @@ from bsm.codec.static.targets import SLACK, Contract
 SWIFT = {"quick": 1, "normal": 2, "best": 0}
 """How values of attributes are coded, `swift` of the header, by the effort: decoders of more bytes are quicker."""
 NEAR = 1.0  # degrees by which computed normals may differ from the given ones that they replace
-ATTRIBUTE_SHARE = {"texcoord": 0.33, "color": 0.2}  # of the look that is promised, what rounding these may take
+# Of the look that is promised, what rounding these may take.
+ATTRIBUTE_SHARE = {"texcoord": 0.33, "color": 0.2}
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,12 +82,18 @@ class Sent:
     def rested(self) -> Sent:
         """Return the input without all that was measured for the search; it is measured again if it is needed."""
         joined, prepared = self._begun
-        return replace(self).but(_begun=(joined, replace(prepared)), qualities=self.qualities, carried=self.carried)
+        return replace(self).but(
+            _begun=(joined, replace(prepared)), qualities=self.qualities, carried=self.carried
+        )
 
     @cached_property
     def qualities(self) -> tuple[tuple[Attribute, Quality], ...]:
         options = self.options
-        return tuple(qualities(self.source.attributes, dict(options.attributes), options.grade, options.normals))
+        return tuple(
+            qualities(
+                self.source.attributes, dict(options.attributes), options.grade, options.normals
+            )
+        )
 
     @cached_property
     def carried(self) -> tuple[PreparedAttribute, ...]:
@@ -89,11 +102,15 @@ class Sent:
     def carry(self, pairs: Sequence[tuple[Attribute, Quality]]) -> tuple[PreparedAttribute, ...]:
         if not pairs:
             return ()
-        return carry(self.joined.coding, self.prepared.mesh.faces, pairs, SWIFT[self.options.effort])
+        return carry(
+            self.joined.coding, self.prepared.mesh.faces, pairs, SWIFT[self.options.effort]
+        )
 
     def qualities_with(self, index: int, quality: Quality) -> tuple[tuple[Attribute, Quality], ...]:
         """All attributes, one of them with another quality."""
-        return tuple((a, quality if at == index else usual) for at, (a, usual) in enumerate(self.qualities))
+        return tuple(
+            (a, quality if at == index else usual) for at, (a, usual) in enumerate(self.qualities)
+        )
 
     def carry_with(self, index: int, quality: Quality) -> tuple[PreparedAttribute, ...]:
         return self.carry(self.qualities_with(index, quality))
@@ -132,7 +149,13 @@ class Sent:
     @property
     def search(self) -> Search:
         additions = sum(attribute.size for attribute in self.carried)
-        return Search(self.measures, self.options, lambda draft: self.completed(draft).size, additions, self.trace)
+        return Search(
+            self.measures,
+            self.options,
+            lambda draft: self.completed(draft).size,
+            additions,
+            self.trace,
+        )
 
     def painted(self, decoded: Positions) -> float:
         """The largest distance of colors and texture coordinates whose quality the look decides."""
@@ -141,17 +164,26 @@ class Sent:
     @cached_property
     def shown_normals(self) -> int | None:
         """The number of the sent normals that pictures show."""
-        return next((at for at, (attribute, _) in enumerate(self.qualities) if shades(attribute)), None)
+        return next(
+            (at for at, (attribute, _) in enumerate(self.qualities) if shades(attribute)), None
+        )
 
     @cached_property
     def free_normals(self) -> int | None:
         """The number of the normals without a requested quality, which the look may choose."""
         options = self.options
         first = self.shown_normals
-        if options.normals != "look" or "*" in dict(options.attributes) or first is None or self.normals is None:
+        if (
+            options.normals != "look"
+            or "*" in dict(options.attributes)
+            or first is None
+            or self.normals is None
+        ):
             return None
         attribute, quality = self.qualities[first]
-        is_chosen = attribute.name in dict(options.attributes) or not np.isfinite(self.normals).all()
+        is_chosen = (
+            attribute.name in dict(options.attributes) or not np.isfinite(self.normals).all()
+        )
         return None if is_chosen or quality.way != "bits" else first
 
     def computes_near_normals(self, decoded: Positions, computed: PreparedAttribute) -> bool:
@@ -174,7 +206,9 @@ class Sent:
         if metric is None:
             return "" if bounds.keeps(trial) else bounds.had, None, bounds.binding(trial)
         distances = [metric.bare(decoded).distance]
-        distances += [look.distance(decoded, self.carried[at].at_corners) for at, look in self.looks]
+        distances += [
+            look.distance(decoded, self.carried[at].at_corners) for at, look in self.looks
+        ]
         bound = others = max(*distances, metric.distance(decoded))
         if (number := self.shown_normals) is not None:
             shaded = metric.shaded(decoded, self.carried[number].normals(decoded))
@@ -186,8 +220,14 @@ class Sent:
             if metric_of_own:
                 moved = replace(self.prepared.mesh, positions=decoded)
                 distances.append(metric_of_own.compare(moved).distance)
-        if self.free_normals is None and bounds.keeps(trial, others) and not bounds.keeps(trial, bound):
-            raise TargetError(f"{contract} cannot be kept with this quality of normals; the look is {bound:.3g}")
+        if (
+            self.free_normals is None
+            and bounds.keeps(trial, others)
+            and not bounds.keeps(trial, bound)
+        ):
+            raise TargetError(
+                f"{contract} cannot be kept with this quality of normals; the look is {bound:.3g}"
+            )
         binding = bounds.binding(trial, bound)
         return "" if bounds.keeps(trial, bound) else bounds.had, max(distances), binding
 
@@ -224,14 +264,23 @@ def _roughen(sender: Sent, at: int, attribute: Attribute, most: float) -> Sent:
         steps = [*(Quality("share", 25.0 * 0.5 ** (k / 2)) for k in rough), Quality("exact")]
     mesh = sender.prepared.mesh
     look_of = AttributeLook(
-        mesh, attribute.semantic, sender.carry_with(at, steps[-1])[at].at_corners, threads=sender.options.threads
+        mesh,
+        attribute.semantic,
+        sender.carry_with(at, steps[-1])[at].at_corners,
+        threads=sender.options.threads,
     )
 
     def is_near(step: int) -> bool:
-        return look_of.distance(mesh.positions, sender.carry_with(at, steps[step])[at].at_corners) <= most
+        return (
+            look_of.distance(mesh.positions, sender.carry_with(at, steps[step])[at].at_corners)
+            <= most
+        )
 
     step = steps[bisect_left(range(len(steps) - 1), True, key=is_near)]
-    if attribute.semantic == "texcoord" or sender.carry_with(at, step)[at].size < sender.carried[at].size:
+    if (
+        attribute.semantic == "texcoord"
+        or sender.carry_with(at, step)[at].size < sender.carried[at].size
+    ):
         sender = sender.but(qualities=sender.qualities_with(at, step))
     return sender.but(looks=(*sender.looks, (at, look_of)))
 
@@ -243,14 +292,21 @@ def complete(sender: Sent, bare: Draft, most: float = math.inf) -> tuple[Sent, D
     """
     draft = sender.completed(bare)
     number = sender.shown_normals
-    if sender.options.normals != "near" or number is None or sender.qualities[number][0].values.dtype.kind != "f":
+    if (
+        sender.options.normals != "near"
+        or number is None
+        or sender.qualities[number][0].values.dtype.kind != "f"
+    ):
         return sender, draft
     spared = sender.but(carried=sender.carry_with(number, Quality("recompute")))
     computed = spared.carried[number]
     if not sender.computes_near_normals(bare.decoded, computed):
         return sender, draft
     metric = sender.measures.look if most < math.inf else None
-    if metric is not None and max(metric.shaded(bare.decoded, computed.normals(bare.decoded))) > most:
+    if (
+        metric is not None
+        and max(metric.shaded(bare.decoded, computed.normals(bare.decoded))) > most
+    ):
         return sender, draft
     smaller = spared.completed(bare)
     return (spared, smaller) if smaller.size < draft.size else (sender, draft)
@@ -266,19 +322,29 @@ def _shaded(sender: Sent, contract: Contract) -> tuple[Sent, Draft]:
     def share_of_look(carried: tuple[PreparedAttribute, ...], positions: Positions) -> float:
         return max(metric.shaded(positions, carried[free].normals(positions))) / most
 
-    finer = [*(Quality("bits", bits) for bits in range(LEAST_NORMAL_BITS, MOST_NORMAL_BITS + 1)), Quality("exact")]
+    finer = [
+        *(Quality("bits", bits) for bits in range(LEAST_NORMAL_BITS, MOST_NORMAL_BITS + 1)),
+        Quality("exact"),
+    ]
 
     def enough(at: int) -> bool:
         return share_of_look(sender.carry_with(free, finer[at]), decoded) <= 1.0
 
-    cheaper = sender.but(carried=sender.carry_with(free, finer[bisect_left(range(len(finer) - 1), True, key=enough)]))
+    cheaper = sender.but(
+        carried=sender.carry_with(free, finer[bisect_left(range(len(finer) - 1), True, key=enough)])
+    )
     pair = cheaper, cheaper.completed(bare)
     recomputed = sender.but(carried=sender.carry_with(free, Quality("recompute")))
-    if metric.against_faces or share_of_look(recomputed.carried, sender.prepared.mesh.positions) > 1.0 - SLACK:
+    if (
+        metric.against_faces
+        or share_of_look(recomputed.carried, sender.prepared.mesh.positions) > 1.0 - SLACK
+    ):
         return pair
 
     def worst_look(positions: Positions) -> float:
-        return max(sender.measures.painted(positions), most * share_of_look(recomputed.carried, positions))
+        return max(
+            sender.measures.painted(positions), most * share_of_look(recomputed.carried, positions)
+        )
 
     recomputed = recomputed.but(measures=sender.measures.painting(worst_look))
     with suppress(TargetError):

@@ -23,14 +23,17 @@ from bsm.codec.static.ways.in_cells import MOST_STEPS, SPREADS, InCells, Leveled
 
 BROADEST = 0.14
 """Columns of a dictionary over the rows of a block: wider ones cost decoders more time than their bytes are worth."""
-BASE = 0.36  # the step of blocks on all vertices below a layer, over the square root of the layer's step
+# The step of blocks on all vertices below a layer, over the square root of the layer's step.
+BASE = 0.36
 APART = 4.0  # steps with other blocks, over one another
 UNFOLDED = 4  # rounds in which edges that fold over are mended
 SMOOTH, ROUGHER = 0.42, 0.25
 """Bytes of blocks with levels over those of a usual grid, where vertices are a step from the mean of their neighbors;
 and the power by which they grow with that."""
-TIME, TIME_OF_ALL = 0.25, 0.45  # shares of the remaining time that one spread and all spreads take; measured
-PLACING, COUPLING = 5, 4  # steps of cells that placing these, and what an error costs beside others, take; measured
+# Shares of the remaining time that one spread and all spreads take; measured.
+TIME, TIME_OF_ALL = 0.25, 0.45
+# Steps of cells that placing these, and what an error costs beside others, take; measured.
+PLACING, COUPLING = 5, 4
 VAIN = 1.5  # times the bytes of another way, from which on a rough estimate is enough
 CODED = 0.72  # bytes by the sizes of levels, over those of the stream
 PULLED = 0.12  # what a bit is worth, over the mean cost of an error of one step along the normal
@@ -123,7 +126,9 @@ class Plain:
         layer = Layer(single(max(float(reaches[out].min()), LEAST)), 1.0)
         levels = np.where(out[:, None], np.rint(base.offsets / layer.step), 0.0).astype(np.int32)
         moved = base.moved(layer, levels, base.known_steps(layer, levels))
-        return Trial(step, moved, partial(refine_blocks, base.prepared, base.draft, layer, levels, moved))
+        return Trial(
+            step, moved, partial(refine_blocks, base.prepared, base.draft, layer, levels, moved)
+        )
 
     def mended(self, trial: Trial) -> Trial | None:
         """Return None: no look is asked for."""
@@ -142,7 +147,13 @@ class Refined:
         settled: bool = True,
         ratio: float = RATIO,
     ) -> None:
-        self.name, self._prepared, self._bounds, self._settled, self.ratio = name, prepared, bounds, settled, ratio
+        self.name, self._prepared, self._bounds, self._settled, self.ratio = (
+            name,
+            prepared,
+            bounds,
+            settled,
+            ratio,
+        )
         # Half a diagonal of steps is within the least reach, so that all vertices can be.
         self._diagonal = 2.0 * float(bounds.reaches.min())
         self.least, self.most = LEAST, max(min(COARSEST, self._diagonal / math.sqrt(3.0)), LEAST)
@@ -163,14 +174,19 @@ class Refined:
         that these would be coded in vain."""
         graph, positions = self._prepared.graph, self._prepared.positions
         degrees = np.diff(graph.offsets)
-        sums = [np.add.reduceat(column[graph.neighbors], graph.offsets[:-1]) for column in positions.T]
+        sums = [
+            np.add.reduceat(column[graph.neighbors], graph.offsets[:-1]) for column in positions.T
+        ]
         bends = squares_of(positions - np.column_stack(sums) / degrees[:, None]).mean()
         rough = rival * SMOOTH * (math.sqrt(float(bends)) / self.first) ** ROUGHER
         saving = BYTES * graph.size
         if rough > VAIN * rival:
             return Estimate(rough, DOUBT, saving)
         base = self._base(self.first)
-        size, finer = (base.about(Layer(single(step), self.ratio)) for step in (self.first, self.first / math.e))
+        size, finer = (
+            base.about(Layer(single(step), self.ratio))
+            for step in (self.first, self.first / math.e)
+        )
         estimate = (size + len(self._prepared.connectivity.data)) / CODED
         return Estimate(estimate, DOUBT, min(saving, (finer - size) / CODED))
 
@@ -188,25 +204,33 @@ class Refined:
     def mended(self, trial: Trial) -> Trial | None:
         """Return None: folds are mended as levels are chosen."""
 
-    def _unfolded(self, step: float, base: RefinementBase, layer: Layer, levels: Levels, steps: Matrix) -> Trial:
+    def _unfolded(
+        self, step: float, base: RefinementBase, layer: Layer, levels: Levels, steps: Matrix
+    ) -> Trial:
         """Return the trial of levels with fewer edges folded over; others may then need it."""
         for _ in range(UNFOLDED):
             positions = base.moved(layer, levels, steps)
             directions = base.directions(steps).reshape(-1, 9)
-            unfolded = self._bounds.measures.shaper.unfold(positions, levels, directions, self._near(steps))
+            unfolded = self._bounds.measures.shaper.unfold(
+                positions, levels, directions, self._near(steps)
+            )
             if unfolded is None:
                 break
             levels, steps = unfolded, base.known_steps(layer, unfolded)
         return self._leveled(step, base, layer, levels, steps)
 
-    def _leveled(self, step: float, base: RefinementBase, layer: Layer, levels: Levels, steps: Matrix) -> Trial:
+    def _leveled(
+        self, step: float, base: RefinementBase, layer: Layer, levels: Levels, steps: Matrix
+    ) -> Trial:
         positions = base.moved(layer, levels, steps)
         code = partial(refine_blocks, base.prepared, base.draft, layer, levels, positions)
         return Trial(step, positions, code, self._settled)
 
     def _near(self, steps: Matrix) -> Matrix:
         """How far vertices may be brought from their places by steps, shape (n, 3)."""
-        return np.asarray(np.minimum(self._bounds.reaches, SPIKE * np.maximum(steps[:, 0], steps[:, 1])))
+        return np.asarray(
+            np.minimum(self._bounds.reaches, SPIKE * np.maximum(steps[:, 0], steps[:, 1]))
+        )
 
     def _evened(self, step: float, base: RefinementBase) -> tuple[Layer, Levels, Matrix]:
         """Levels that are worth their bits; and their known steps."""
@@ -215,7 +239,9 @@ class Refined:
         layer = Layer(single(step), min(max(math.sqrt(max(room, 0.0) / 2.0), 1.0), self.ratio))
         steps, expected = base.expected_steps(layer), partial(base.known_steps, layer)
         farthest = self._near(steps)
-        levels = self._settler.levels(base.offsets, base.frames, steps, expected, PULLED, farthest, self.ratio)
+        levels = self._settler.levels(
+            base.offsets, base.frames, steps, expected, PULLED, farthest, self.ratio
+        )
         levels, known_steps = base.within(reaches, layer, levels)
         if len((gaps := self._bounds.gaps).ends):
             moved = base.moved(layer, levels, known_steps) - self._prepared.positions

@@ -26,13 +26,16 @@ from bsm.codec.static.targets import ANY_ANGLE, SLACK, Contract
 BOUNDS = "vertex error", "normal error", "visual error", "look"
 COARSEST, SEEN = 0.05, 1.0 / 32.0
 """Largest step, in BSM units; and about the one, in mean edges, at which rounding has a look of 1."""
-LEAST = 1e-6  # share of a bound below which all is as good as it can be; rounding of measures adds less
-SPIKE = 4.0  # steps that a vertex may be off where its place is chosen: farther ones stand out as spikes
+# Share of a bound below which all is as good as it can be; rounding of measures adds less.
+LEAST = 1e-6
+# Steps that a vertex may be off where its place is chosen: farther ones stand out as spikes.
+SPIKE = 4.0
 FINEST_PART = 0.1
 """No part is bound more tightly than this, over the bound of the whole: where that is 1 % of the diagonal, it is half a
 pixel in a picture of 512. Of a gap between parts, as much is left."""
 FLAT = 1e-9  # area of a face that has none, over the square of its longest side
-NO_FACE_LOST, FEW_LOST = 0.5, 200  # the widest look with which no face loses its area; one in so many with wider ones
+# The widest look with which no face loses its area; one in so many with wider ones.
+NO_FACE_LOST, FEW_LOST = 0.5, 200
 SLIVERS = 2e-3  # of the faces: so many edges may fold on a grid
 DRAWING = 0.06  # share of the remaining time that pictures of the original take; measured
 PIECE = 1 << 15  # faces that are looked at together
@@ -108,7 +111,11 @@ def count_flat(positions: Matrix, faces: Faces) -> int:
     small = areas <= FLAT * longest
     corners = positions[faces[small]]
     sides = corners - np.roll(corners, 1, axis=1)
-    return int(np.count_nonzero(areas[small] <= FLAT * np.square(sides).sum(axis=2).max(axis=1, initial=0.0)))
+    return int(
+        np.count_nonzero(
+            areas[small] <= FLAT * np.square(sides).sum(axis=2).max(axis=1, initial=0.0)
+        )
+    )
 
 
 def trial_of(prepared: Prepared, draft: Draft) -> Trial:
@@ -131,7 +138,11 @@ class Bounds:
     def excess(self, candidate: Trial) -> float:
         """The logarithm of the largest share of a bound that depends on the step."""
         farther, angle, visual, look = self._shares(candidate)
-        shares = (angle, visual, look) if candidate.settled and farther <= 1.0 else (farther, angle, visual, look)
+        shares = (
+            (angle, visual, look)
+            if candidate.settled and farther <= 1.0
+            else (farther, angle, visual, look)
+        )
         self.measures.progress.by()
         return math.log(max(*shares, LEAST))
 
@@ -139,7 +150,11 @@ class Bounds:
         """Whether more faces lose their areas, or more edges fold, than may."""
         shaper = self.measures.shaper
         # On grids, slivers of parts fold where nothing shows.
-        most = shaper.most_folds if trial.settled else max(SLIVERS * len(self.measures.prepared.mesh.faces), 1.0)
+        most = (
+            shaper.most_folds
+            if trial.settled
+            else max(SLIVERS * len(self.measures.prepared.mesh.faces), 1.0)
+        )
         return self.loses_faces(trial.positions) or shaper.more_folds(trial.positions) > most
 
     def loses_faces(self, positions: Matrix) -> bool:
@@ -147,7 +162,11 @@ class Bounds:
         if self.contract.look > 1.0:
             return False
         flat = self.measures.flat_faces(positions)
-        most = 0 if self.contract.look <= NO_FACE_LOST else len(self.measures.prepared.mesh.faces) // FEW_LOST
+        most = (
+            0
+            if self.contract.look <= NO_FACE_LOST
+            else len(self.measures.prepared.mesh.faces) // FEW_LOST
+        )
         return flat - self.measures.flat_before > most
 
     @property
@@ -168,7 +187,12 @@ class Bounds:
     def quality(self, candidate: Trial) -> float:
         """How far off positions are where the nearest ones are wanted, as a logarithm."""
         metric, angle = self.measures.look, self.measures.original.angle
-        return math.log(max(metric.distance(self._decoded(candidate)) if metric else angle(candidate.positions), LEAST))
+        return math.log(
+            max(
+                metric.distance(self._decoded(candidate)) if metric else angle(candidate.positions),
+                LEAST,
+            )
+        )
 
     @cached_property
     def first_step(self) -> float:
@@ -191,7 +215,9 @@ class Bounds:
         if metric is None:
             return step
         for _ in range(2):
-            placed = self.measures.prepared.units.back(np.rint(self.measures.prepared.positions / step) * step)
+            placed = self.measures.prepared.units.back(
+                np.rint(self.measures.prepared.positions / step) * step
+            )
             wider = self._aim / max(metric.glance(placed), LEAST)
             step = min(step * min(max(wider, 0.1), 10.0), COARSEST)
             if 0.5 < wider < 2.0:
@@ -210,9 +236,13 @@ class Bounds:
         if self._best is None:
             return "nothing"
         contract, (farther, angle, visual, look) = self.contract, self._best
-        return contract.worded(farther, angle * contract.angle, look * contract.look, visual * contract.visual)
+        return contract.worded(
+            farther, angle * contract.angle, look * contract.look, visual * contract.visual
+        )
 
-    def _shares(self, candidate: Trial, look: float | None = None) -> tuple[float, float, float, float]:
+    def _shares(
+        self, candidate: Trial, look: float | None = None
+    ) -> tuple[float, float, float, float]:
         """Shares of the bounds on distances, on the angle of normals, on the visual error, and on the look."""
         if look is None and self._last is not None and self._last[0]() is candidate:
             return self._last[1]
@@ -234,8 +264,16 @@ class Bounds:
         off = positions - measures.prepared.positions
         shares = np.sqrt(squares_of(off)) / np.maximum(self.reaches, np.finfo(np.float64).tiny)
         farther = float(np.append(shares, self.gaps.closed(off)).max(initial=0.0))
-        angle = measures.original.angle(positions) / contract.angle if contract.angle < ANY_ANGLE else 0.0
-        visual = measures.prepared.reference.nmsve(positions) / contract.visual if contract.visual < math.inf else 0.0
+        angle = (
+            measures.original.angle(positions) / contract.angle
+            if contract.angle < ANY_ANGLE
+            else 0.0
+        )
+        visual = (
+            measures.prepared.reference.nmsve(positions) / contract.visual
+            if contract.visual < math.inf
+            else 0.0
+        )
         return farther, angle, visual
 
     def _decoded(self, candidate: Trial) -> Positions:
@@ -251,7 +289,9 @@ def reaches(prepared: Prepared, contract: Contract) -> Matrix:
     if not by_part < math.inf:
         return np.full(len(part), farthest)
     order, starts = np.argsort(part, kind="stable"), np.cumsum([0, *np.bincount(part)[:-1]])
-    low, high = (end.reduceat(prepared.positions[order], starts) for end in (np.minimum, np.maximum))
+    low, high = (
+        end.reduceat(prepared.positions[order], starts) for end in (np.minimum, np.maximum)
+    )
     diagonals = np.sqrt(squares_of(high - low)) * unit / (diagonal or 1.0)
     return np.asarray(np.minimum(farthest, by_part * diagonals.clip(FINEST_PART, 1.0)[part]))
 
@@ -270,7 +310,10 @@ class Gaps(NamedTuple):
     def kept(self, reach: Matrix, moved: Matrix | None = None) -> Matrix:
         """How far vertices may be, of `reach`, so that no gap closes, or none of those that `moved` would close."""
         wrong = np.s_[:] if moved is None else self.closed(moved) > 1.0
-        half, reach = (1.0 - FINEST_PART) / 2.0 / np.sqrt(squares_of(self.closing[wrong, 0])), reach.copy()
+        half, reach = (
+            (1.0 - FINEST_PART) / 2.0 / np.sqrt(squares_of(self.closing[wrong, 0])),
+            reach.copy(),
+        )
         np.minimum.at(reach, self.ends[wrong], half[:, None])
         return reach
 
@@ -278,7 +321,10 @@ class Gaps(NamedTuple):
 def gaps(prepared: Prepared, contract: Contract) -> Gaps:
     """Where parts are near each other, but do not touch."""
     part, positions, faces = prepared.components, prepared.positions, prepared.mesh.faces
-    reach, count = 2.0 * contract.by_part * prepared.mesh.diagonal / prepared.units.scale, int(part.max(initial=0)) + 1
+    reach, count = (
+        2.0 * contract.by_part * prepared.mesh.diagonal / prepared.units.scale,
+        int(part.max(initial=0)) + 1,
+    )
     if not 1 < count <= MOST_PARTS or not reach < math.inf:
         return Gaps(np.empty((0, 4), np.int64), np.empty((0, 4, 3)))
     low, high = positions[faces].min(axis=1), positions[faces].max(axis=1)
@@ -289,10 +335,19 @@ def gaps(prepared: Prepared, contract: Contract) -> Gaps:
         is_close = ~is_own & (low <= last).all(axis=1) & (high >= first).all(axis=1)
         if is_close.any():
             first, last = low[is_close].min(axis=0) - reach, high[is_close].max(axis=0) + reach
-            mine = np.flatnonzero((part == number) & ((positions >= first) & (positions <= last)).all(axis=1))
-            rows.append(np.column_stack([mine, *nearest_points(positions[mine], positions, faces[is_close])]))
+            mine = np.flatnonzero(
+                (part == number) & ((positions >= first) & (positions <= last)).all(axis=1)
+            )
+            rows.append(
+                np.column_stack(
+                    [mine, *nearest_points(positions[mine], positions, faces[is_close])]
+                )
+            )
     closest = np.concatenate(rows)
-    ends, weights = closest[:, :4].astype(np.int64), np.insert(closest[:, 4:], 0, -1.0, axis=1)[:, :, None]
+    ends, weights = (
+        closest[:, :4].astype(np.int64),
+        np.insert(closest[:, 4:], 0, -1.0, axis=1)[:, :, None],
+    )
     across = -(weights * positions[ends]).sum(axis=1)
     squares, of = squares_of(across), part[ends[:, :2]]
     np.minimum.at(nearest, of, np.sqrt(squares)[:, None])

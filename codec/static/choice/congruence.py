@@ -50,12 +50,19 @@ def lattice(
     most places to places, those that exchange axes or turn them back, all at once; and for which planes are at places:
     where a long edge moves, a row of samples changes, and a picture shows it."""
     turns, shifts, shares = motions_of(prepared, step, turn)
-    is_exact = np.abs(turns - np.rint(turns)).max(axis=(1, 2)) * extent_of(prepared.mesh.positions).max() < step / 4.0
+    is_exact = (
+        np.abs(turns - np.rint(turns)).max(axis=(1, 2)) * extent_of(prepared.mesh.positions).max()
+        < step / 4.0
+    )
     nearness = np.linspace(-0.5, 0.5, 241)
     steps = np.maximum(step * np.exp(SLACK * nearness), least).astype(np.float32).astype(np.float64)
     origins, is_open = np.repeat(origin[None], len(steps), axis=0), np.ones(3, bool)
     score = -1e-6 * np.abs(nearness)
-    rigid = [(np.rint(turns[k]), shifts[k], shares[k]) for k in np.argsort(-shares, kind="stable") if is_exact[k]]
+    rigid = [
+        (np.rint(turns[k]), shifts[k], shares[k])
+        for k in np.argsort(-shares, kind="stable")
+        if is_exact[k]
+    ]
     for turned, shift, _ in rigid:  # axes that it turns have its center at a place
         back = np.eye(3) - turned
         if (axes := back.any(axis=0)).any() and is_open[axes].all():
@@ -65,8 +72,11 @@ def lattice(
     for axis, (values, lengths) in enumerate(plane.T for plane in planes):
         if not len(values):
             continue
-        cells = (values[:, None] - (values if is_open[axis] else origins[:, axis, None, None])) / steps[:, None, None]
-        off = np.einsum("i,sij->sj", lengths, np.abs(cells - np.rint(cells)))  # where plane j is at a place
+        cells = (
+            values[:, None] - (values if is_open[axis] else origins[:, axis, None, None])
+        ) / steps[:, None, None]
+        # Where plane j is at a place.
+        off = np.einsum("i,sij->sj", lengths, np.abs(cells - np.rint(cells)))
         score -= off.min(axis=1)
         if is_open[axis]:
             cells = (values[off.argmin(axis=1)] - origins[:, axis]) / steps
@@ -74,7 +84,8 @@ def lattice(
     for turned, shift, share in rigid:
         cells = (shift - origins @ (np.eye(3) - turned).T) / steps[:, None]
         off = np.abs(cells - np.rint(cells)).max(axis=1)
-        score += share * np.maximum(0.0, 1.0 - np.square(16.0 * off))  # what a vertex has moved by, other images see
+        # What a vertex has moved by, other images see.
+        score += share * np.maximum(0.0, 1.0 - np.square(16.0 * off))
     best = int(score.argmax())
     return float(steps[best]), origins[best]
 
@@ -83,10 +94,13 @@ def motions_of(prepared: Prepared, step: float, turn: Turn) -> tuple[Matrix, Mat
     """Turns, shape (k, 3, 3), and shifts, shape (k, 3), between parts, in turned axes, and the share of vertices that
     each takes to others; sought once for like steps, on a ladder from the first step on."""
     first = next(iter(prepared.motions), step)
-    rung = first * 4.0 ** round(math.log(step / first, 4.0))  # for each step, bytes would jump from one to the next
+    # For each step, bytes would jump from one to the next.
+    rung = first * 4.0 ** round(math.log(step / first, 4.0))
     if rung not in prepared.motions:
         cell = FINER * rung
-        prepared.motions[rung] = motions_between(prepared.mesh.positions / cell, prepared.mesh.faces)
+        prepared.motions[rung] = motions_between(
+            prepared.mesh.positions / cell, prepared.mesh.faces
+        )
         prepared.motions[rung][:, 9:12] *= cell
     turns, shifts, shares = np.split(prepared.motions[rung], [9, 12], axis=1)
     axes = turned_by(np.eye(3), turn) if any(turn) else np.eye(3)
@@ -98,10 +112,16 @@ def motions_between(positions: Matrix, faces: Faces) -> Matrix:
     count, motions = len(positions), np.empty((constant("MOST_TRANSFORMS"), 13))
     degrees = np.bincount(faces.reshape(-1), minlength=count).astype(np.int32)
     heads = np.empty(1 << max(count, len(faces), 2).bit_length(), np.int32)
-    links, covered, room = np.empty(count + len(faces), np.int32), np.zeros(48 << 14, np.uint8), np.zeros(1 << 18)
+    links, covered, room = (
+        np.empty(count + len(faces), np.int32),
+        np.zeros(48 << 14, np.uint8),
+        np.zeros(1 << 18),
+    )
     middle = (positions.min(axis=0) + positions.max(axis=0)) / 2.0
     centered = np.ascontiguousarray(positions - middle)
-    number = _kernels.find_motions(centered, faces, degrees, WORTH, (heads, links, covered, room), motions)
+    number = _kernels.find_motions(
+        centered, faces, degrees, WORTH, (heads, links, covered, room), motions
+    )
     motions[:number, 9:12] += middle - motions[:number, :9].reshape(-1, 3, 3) @ middle
     return motions[:number]
 
@@ -114,7 +134,9 @@ def coded_transforms(turns: Matrix, shifts: Matrix, largest: npt.ArrayLike) -> L
     sign = np.sign(np.take_along_axis(turns, source[..., None], axis=2)[..., 0])
     others = (np.abs(turns - np.eye(3)[source] * sign[..., None]) * span).max(axis=(1, 2)) >= 1.0
     others |= (np.sort(source, axis=1) != np.arange(3)).any(axis=1)
-    kind = 8 * (2 * source[:, 0] + ((source[:, 1] - source[:, 0]) % 3 == 2)) + (sign < 0) @ np.array([1, 2, 4])
+    kind = 8 * (2 * source[:, 0] + ((source[:, 1] - source[:, 0]) % 3 == 2)) + (
+        sign < 0
+    ) @ np.array([1, 2, 4])
     origins = np.rint(moved - sign * middle[source]) + np.where(sign > 0, span[source], 0)
     rows, ends = np.column_stack([kind, np.zeros((len(turns), 4)), origins]), span + span[source]
     if others.any():

@@ -21,10 +21,19 @@ from bsm.codec.static.choice.trials import BYTES, DOUBT, Estimate, Trial, ladder
 from bsm.codec.static.preamble_encoding import Draft, Prepared
 from bsm.codec.static.targets import SLACK
 from bsm.codec.static.units import single
-from bsm.codec.static.ways.grid import SAMPLE, Raster, encode_going, encode_grid, grid_of, sampled_size
+from bsm.codec.static.ways.grid import (
+    SAMPLE,
+    Raster,
+    encode_going,
+    encode_grid,
+    grid_of,
+    sampled_size,
+)
 
-MOST_CONGRUENT = 1 << 19  # vertices: of larger meshes, images would take more than some decoders grant
-HALVES = 0, 1, 2, 7  # how often the usual step is halved: where images are near to places, finer steps may be cheaper
+# Vertices: of larger meshes, images would take more than some decoders grant.
+MOST_CONGRUENT = 1 << 19
+# How often the usual step is halved: where images are near to places, finer steps may be cheaper.
+HALVES = 0, 1, 2, 7
 UNSURE = 1.0  # standard deviation of what a wider step saves with images, over the guess
 MENDINGS = 3  # codings in which vertices of folded edges stay where they are
 STAYING = 1.05  # times the bytes with images to which vertices go: those where they stay
@@ -70,7 +79,9 @@ def repeating(prepared: Prepared, grid: Raster, places: Levels, draft: Draft) ->
         sampled = partial(sampled_size, prepared.mesh.faces, coded=places)
         if len(places) > SAMPLE and sampled(with_images) >= sampled(grid):
             return draft
-    with_repeats = grid_draft(prepared, with_images, places, not prepared.light, decoded=draft.decoded)
+    with_repeats = grid_draft(
+        prepared, with_images, places, not prepared.light, decoded=draft.decoded
+    )
     return min(draft, with_repeats, key=lambda draft: draft.size)
 
 
@@ -79,11 +90,16 @@ def paying(prepared: Prepared, draft: Draft) -> Draft:
     places, header = draft.places, draft.header
     if places is None or not header.congruence:
         return draft
-    grid, transforms = grid_of(header), transforms_of(prepared, grid_of(header))[: header.transforms]
+    grid, transforms = (
+        grid_of(header),
+        transforms_of(prepared, grid_of(header))[: header.transforms],
+    )
     pieces = [part for part in np.array_split(transforms, 4) if len(part)]
     for i in range(count := len(pieces), max(count - 3, 0), -1):
         rest = pieces[:i] + pieces[i + 1 :]
-        grid = replace(grid, transforms=np.concatenate(rest), whole=i < count and draft.header.whole)
+        grid = replace(
+            grid, transforms=np.concatenate(rest), whole=i < count and draft.header.whole
+        )
         coded = grid_draft(prepared, grid, places, draft.may_be_brief, decoded=draft.decoded)
         if coded.size < (1.0 - SLACK * (i == count)) * draft.size:
             draft, pieces = coded, rest
@@ -105,14 +121,20 @@ def rounded_to_cells(prepared: Prepared, cell: float, origin: tuple[float, float
 def exact(prepared: Prepared) -> Draft:
     """Every position, which is one of single precision, to the bit: a grid, and which float of its cell each is."""
     grid, places = _rounded(prepared)
-    grid, positions = replace(grid, exact=True), prepared.mesh.positions.astype(np.float32).astype(np.float64)
+    grid, positions = (
+        replace(grid, exact=True),
+        prepared.mesh.positions.astype(np.float32).astype(np.float64),
+    )
     header = Header(vertices=prepared.graph.size, faces=len(prepared.mesh.faces), **grid.fields)
     body = (*prepared.before_grid, *encode_grid(prepared.mesh.faces, grid, places, positions))
     return Draft(header, body, positions, places)
 
 
 def _rounded(
-    prepared: Prepared, bits: int = 0, cell: float = 0.0, origin: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    prepared: Prepared,
+    bits: int = 0,
+    cell: float = 0.0,
+    origin: tuple[float, float, float] = (0.0, 0.0, 0.0),
 ) -> tuple[Raster, Levels]:
     """A grid of so many bits, of given cells, or of exact floats, and the places on it, shape (n, 3)."""
     positions = np.ascontiguousarray(prepared.mesh.positions, np.float64)
@@ -154,7 +176,8 @@ def spacing_of(positions: Matrix, faces: Faces) -> float:
         if 8 * len(along) <= len(spans):
             continue
         alike = np.searchsorted(along, (1.0 + 1e-4) * along + noise) - np.arange(len(along))
-        spacing = float(along[alike.argmax() :][: alike.max()].mean())  # what more edges span than anything else
+        # What more edges span than anything else.
+        spacing = float(along[alike.argmax() :][: alike.max()].mean())
         off = np.abs(along / spacing - np.rint(along / spacing)) > 2.0 * SLACK
         # Without rows, seven in eight would be off.
         if off.mean() < 8.0 * SLACK and extent[axis] > 8.0 * spacing:
@@ -168,21 +191,29 @@ def spacing_of(positions: Matrix, faces: Faces) -> float:
 class Frame:
     """The axes and the origin of the grids of a mesh; of a regular mesh, on its rows."""
 
-    def __init__(self, prepared: Prepared, bounds: Bounds, turn: Turn = UNTURNED, spacing: float = 0.0) -> None:
+    def __init__(
+        self, prepared: Prepared, bounds: Bounds, turn: Turn = UNTURNED, spacing: float = 0.0
+    ) -> None:
         self.prepared, self.bounds, self.turn, self.spacing = prepared, bounds, turn, spacing
         axes = turned_by(prepared.mesh.positions, turn, back=True)
         self.positions = prepared.units.into(axes) if any(turn) else prepared.positions
         low = box_around(axes)[0]
         if spacing:
-            around = np.exp(2j * math.pi / spacing * (self.positions - prepared.units.into(low))).mean(axis=0)
+            around = np.exp(
+                2j * math.pi / spacing * (self.positions - prepared.units.into(low))
+            ).mean(axis=0)
             low = low + np.angle(around) / (2.0 * math.pi) * spacing * prepared.units.scale
         narrow = low.astype(np.float32)
         is_exact_enough = np.spacing(np.abs(narrow)).max() < 1e-6 * prepared.units.scale
         self.hold: Callable[[float], float] = single if is_exact_enough else float
-        below = np.where(narrow > low, np.nextafter(narrow, np.float32(-np.inf)), narrow).astype(np.float64)
+        below = np.where(narrow > low, np.nextafter(narrow, np.float32(-np.inf)), narrow).astype(
+            np.float64
+        )
         self._origin = below if is_exact_enough else low
         cells = float((self.positions - prepared.units.into(self._origin)).max()) / (MOST_GRID - 4)
-        self.least = max(cells, float(np.finfo(np.float32).smallest_subnormal) / prepared.units.scale)
+        self.least = max(
+            cells, float(np.finfo(np.float32).smallest_subnormal) / prepared.units.scale
+        )
 
     @cached_property
     def first(self) -> float:
@@ -206,11 +237,17 @@ class Frame:
     def motions(self) -> tuple[Matrix, Matrix, Matrix]:
         """Motions between congruent parts, as for the first step."""
         self._seek_motions()
-        return motions_of(self.prepared, max(self.first, self.least) * self.prepared.units.scale, self.turn)
+        return motions_of(
+            self.prepared, max(self.first, self.least) * self.prepared.units.scale, self.turn
+        )
 
     def _seek_motions(self) -> None:
         if not self.prepared.motions:  # the same ladder for all looks
-            motions_of(self.prepared, max(self.bounds.usual_step, self.least) * self.prepared.units.scale, self.turn)
+            motions_of(
+                self.prepared,
+                max(self.bounds.usual_step, self.least) * self.prepared.units.scale,
+                self.turn,
+            )
 
     @property
     def explained(self) -> float:
@@ -245,7 +282,10 @@ class Frame:
         moved = self.with_images
         grid, places = Gridded("grid", self).places(self.first)
         rounded_positions = self.prepared.units.into(grid.positions(places))
-        squares = [squares_of(p - self.prepared.positions).sum() for p in (moved.positions, rounded_positions)]
+        squares = [
+            squares_of(p - self.prepared.positions).sum()
+            for p in (moved.positions, rounded_positions)
+        ]
         far = squares[0] > math.exp(2.0 * DOUBT) * squares[1]
         return bool(far and moved.draft.size > 0.5 * self.light_size)
 
@@ -268,7 +308,11 @@ class Gridded:
         only_step: float = 0.0,
     ) -> None:
         self.name, self.frame = name, frame
-        self._prepared, self._bounds, self._shaper = frame.prepared, frame.bounds, frame.bounds.measures.shaper
+        self._prepared, self._bounds, self._shaper = (
+            frame.prepared,
+            frame.bounds,
+            frame.bounds.measures.shaper,
+        )
         self._worth, self._images, self._going, self._made = worth, images, going, only_step
         self.least, self.most = (only_step, only_step) if only_step else (frame.least, COARSEST)
 
@@ -290,7 +334,9 @@ class Gridded:
     def light_size(self) -> int:
         """About the bytes at the first step without images, by a quick coder."""
         grid, places = self.places(self.first)
-        return grid_draft(self._prepared, replace(grid, light=True), places, may_repeat(self._prepared)).size
+        return grid_draft(
+            self._prepared, replace(grid, light=True), places, may_repeat(self._prepared)
+        ).size
 
     def estimate(self, rival: float) -> Estimate:
         """Return about how many bytes a trial at the first step takes."""
@@ -326,7 +372,9 @@ class Gridded:
         width = float(self.frame.dividing(step))
         grid, places = self.places(width)
         if self._going:
-            return self._coded_trial(width, grid, places, self._draft(grid, places, self._wanted(grid, places)))
+            return self._coded_trial(
+                width, grid, places, self._draft(grid, places, self._wanted(grid, places))
+            )
         decoded = grid.positions(places)
         code = partial(self._draft, grid, places, decoded=decoded)
         return self._trial(width, grid, places, decoded, code)
@@ -348,7 +396,14 @@ class Gridded:
     def _coded_trial(self, step: float, grid: Raster, places: Levels, draft: Draft) -> Trial:
         return self._trial(step, grid, places, draft.decoded, lambda: draft)
 
-    def _trial(self, step: float, grid: Raster, places: Levels, decoded: Positions, code: Callable[[], Draft]) -> Trial:
+    def _trial(
+        self,
+        step: float,
+        grid: Raster,
+        places: Levels,
+        decoded: Positions,
+        code: Callable[[], Draft],
+    ) -> Trial:
         positions = np.ascontiguousarray(self._prepared.units.into(decoded))
         complete = partial(completed, self._prepared, grid, places, self._images)
         return Trial(step, positions, code, decoded=decoded, complete=complete)
@@ -360,7 +415,10 @@ class Gridded:
         cell, low = length / unit, self._prepared.units.into(origin)
         places = np.floor((frame.positions - low) / cell + 0.5).astype(np.int32)
         if self._worth:
-            worth, reach = self._worth * step / self._shaper.mean_edge, float(self._bounds.reaches.min())
+            worth, reach = (
+                self._worth * step / self._shaper.mean_edge,
+                float(self._bounds.reaches.min()),
+            )
             places = self._shaper.places(places, low, cell, worth, min(reach, SPIKE * step))
         # The coder decides where vertices go to images: it mends most folds.
         if self._bounds.metric is not None and (unfolded or not self._going):
@@ -368,9 +426,12 @@ class Gridded:
         places = self._apart(places, low, cell)
         least = places.min(axis=0)  # some may be below the origin
         start = tuple(frame.hold(value) for value in origin + least * length)
-        grid = Raster(start, length, tuple(int(value) for value in np.ptp(places, axis=0)), turn=frame.turn)
+        grid = Raster(
+            start, length, tuple(int(value) for value in np.ptp(places, axis=0)), turn=frame.turn
+        )
         places = places - least
-        if self._bounds.metric is not None:  # pictures show faces without area; on coarse grids there are many
+        # Pictures show faces without area; on coarse grids there are many.
+        if self._bounds.metric is not None:
             largest = np.array(grid.largest, np.int32)
             places = self._prepared.linked.mended(places, largest, self._wanted(grid, places))
         return grid, places
@@ -398,7 +459,11 @@ class Gridded:
         return places
 
     def _draft(
-        self, grid: Raster, places: Levels, targets: Matrix | None = None, decoded: Positions | None = None
+        self,
+        grid: Raster,
+        places: Levels,
+        targets: Matrix | None = None,
+        decoded: Positions | None = None,
     ) -> Draft:
         """Return the stream of places; vertices go to images as `_wanted` has it."""
         may_be_brief = may_repeat(self._prepared) and not self._prepared.light
@@ -412,7 +477,10 @@ class Gridded:
 
     def _wanted(self, grid: Raster, places: Levels) -> Matrix:
         """Return where each vertex would be, in cells, and the square of how far off it may be, shape (n, 4)."""
-        cell, low = grid.step / self._prepared.units.scale, self._prepared.units.into(np.array(grid.origin))
+        cell, low = (
+            grid.step / self._prepared.units.scale,
+            self._prepared.units.into(np.array(grid.origin)),
+        )
         targets, gaps = (self.frame.positions - low) / cell, self._bounds.gaps
         reach = np.minimum(gaps.kept(self._bounds.reaches) / cell, SPIKE)
         # Who is past the middle of a gap leaves no room in it: there, all stay where they are.
@@ -422,7 +490,9 @@ class Gridded:
 
 
 # Not a method: a trial that a frame keeps must not keep the frame.
-def completed(prepared: Prepared, grid: Raster, places: Levels, with_images: bool, draft: Draft) -> Draft:
+def completed(
+    prepared: Prepared, grid: Raster, places: Levels, with_images: bool, draft: Draft
+) -> Draft:
     """Return the smallest stream of places: with images where they pay, and with as many as pay."""
     if may_repeat(prepared) and not with_images:
         draft = repeating(prepared, grid, places, draft)

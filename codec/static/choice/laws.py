@@ -16,7 +16,8 @@ from bsm.codec.static.targets import SLACK, TRIES
 
 TRUST = 2  # trials that the usual luck stands for
 MOST_CODED = 3 * TRIES  # trials of a way
-UNTRIED = 2.0 * SLACK  # of the bytes, as a logarithm: by so much, ways whose errors are unknown may do better
+# Of the bytes, as a logarithm: by so much, ways whose errors are unknown may do better.
+UNTRIED = 2.0 * SLACK
 LOGISTIC = math.sqrt(3.0) / math.pi  # scale of a logistic distribution, over its standard deviation
 
 
@@ -27,7 +28,14 @@ class Law:
     """
 
     def __init__(
-        self, steps: Matrix, first: float, guess: float, doubt: float, slope: float, luck: float, slope_doubt: float
+        self,
+        steps: Matrix,
+        first: float,
+        guess: float,
+        doubt: float,
+        slope: float,
+        luck: float,
+        slope_doubt: float,
     ) -> None:
         self._steps, self._slope, self._luck = steps, slope, luck**2
         self._trust_in_slope = 1.0 / (2.0 * slope_doubt * slope) ** 2
@@ -68,7 +76,9 @@ class Law:
         if self.count:
             centered = places[1:] - places[1:].mean()
             trust_in_slope = self._luck * self._trust_in_slope
-            slope += centered @ (values[1:] - slope * centered) / (centered @ centered + trust_in_slope)
+            slope += (
+                centered @ (values[1:] - slope * centered) / (centered @ centered + trust_in_slope)
+            )
         weights = 1.0 / (doubts**2 + self._luck + slope_doubt * distances**2)
         total = weights.sum(axis=1)
         self.mean: Matrix = (weights * (values + slope * distances)).sum(axis=1) / total
@@ -87,7 +97,15 @@ class Prospect:
         self.way, self.estimate, self.steps = way, estimate, way.ladder
         self.first = self.index_of(way.first)
         place, slope = float(self.steps[self.first]), -estimate.saving / estimate.size
-        self.sizes = Law(self.steps, place, math.log(estimate.size), estimate.doubt, slope, SLACK, estimate.slope_doubt)
+        self.sizes = Law(
+            self.steps,
+            place,
+            math.log(estimate.size),
+            estimate.doubt,
+            slope,
+            SLACK,
+            estimate.slope_doubt,
+        )
         self.errors = Law(self.steps, place, 0.0, DOUBT, rise, luck, DOUBT)
         self.states = np.full(len(self.steps), UNCODED)
         self.coded: dict[int, Trial] = {}
@@ -131,7 +149,9 @@ class Prospect:
             return untried - float(self.sizes.mean[index]), index
         chance = np.exp(-np.logaddexp(0.0, errors.mean / errors.spread))
         paid = least - price / np.maximum(chance, LEAST)
-        savings = self.sizes.spread * np.logaddexp(0.0, (paid - self.sizes.mean) / self.sizes.spread)
+        savings = self.sizes.spread * np.logaddexp(
+            0.0, (paid - self.sizes.mean) / self.sizes.spread
+        )
         gains = chance * savings - price * (self.states == UNCODED)
         gains[closed] = -math.inf
         best = int(gains.argmax())

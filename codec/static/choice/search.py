@@ -32,15 +32,22 @@ QUICK, PRICE = 2e-3, 9e-4
 FINDING, ESTIMATING, CODING = 0.1, 0.05, 0.1
 """Shares of the remaining time that finding the ways, estimating the bytes of one, and coding a trial take."""
 MOST_REFUSALS = 6  # of trials in which faces lose their areas or fold: then, such a trial is taken
-RISE = 2.0 * SLACK  # of bytes, as a logarithm, from which on no finer steps are coded than the usual one
-USUAL = 2.0  # times the bytes of the default, up and down, within which its own stream may be the best of a size
+# Of bytes, as a logarithm, from which on no finer steps are coded than the usual one.
+RISE = 2.0 * SLACK
+# Times the bytes of the default, up and down, within which its own stream may be the best of a size.
+USUAL = 2.0
 
 
 class Search:
     """Looks for the best stream of a mesh among all ways to code it."""
 
     def __init__(
-        self, measures: Measures, options: EncodeOptions, size: Callable[[Draft], int], additions: int, trace: Trace
+        self,
+        measures: Measures,
+        options: EncodeOptions,
+        size: Callable[[Draft], int],
+        additions: int,
+        trace: Trace,
     ) -> None:
         self._measures, self.prepared, self._options = measures, measures.prepared, options
         self.size = size
@@ -70,11 +77,17 @@ class Search:
         sizing = SizeSearch(promised, self.size, self.additions, self.trace)
         candidates = list(sizing.trials(ways, most))
         # These are candidates of all sizes that are large enough for them.
-        specials = [trial_of(self.prepared, exact(self.prepared))] if self._options.effort != "quick" else []
+        specials = (
+            [trial_of(self.prepared, exact(self.prepared))]
+            if self._options.effort != "quick"
+            else []
+        )
         if sizing.usual_size / USUAL <= most <= USUAL * sizing.usual_size:
             usual_trial = self._smallest_trial(Bounds(self._measures, contract or BALANCED))
             specials += [] if usual_trial is None else [usual_trial]
-        fitting = [trial for trial in specials if self.size(trial.final) <= most and promised.keeps(trial)]
+        fitting = [
+            trial for trial in specials if self.size(trial.final) <= most and promised.keeps(trial)
+        ]
         candidates += [(promised.quality(trial), trial) for trial in fitting]
         return min(candidates, key=lambda candidate: candidate[0])[1].final if candidates else None
 
@@ -84,7 +97,8 @@ class Search:
         search = OneSearch(self, bounds)
         if bounds.contract.look == math.inf:
             search.widen(ways)
-            ways = [way for way in ways if way.name.startswith("images")]  # luck decides about bytes
+            # Luck decides about bytes.
+            ways = [way for way in ways if way.name.startswith("images")]
         search.begin(ways)
         for count, price in enumerate(self._prices, 1):
             search.run(price, count)
@@ -95,12 +109,16 @@ class Search:
         for draft in (rounded(self.prepared, int(RANGES["grid"][1])), exact(self.prepared)):
             if bounds.keeps(trial_of(self.prepared, draft)):
                 return draft
-        raise TargetError(f"{bounds.contract} cannot be kept on this mesh; the best possible is {bounds.had}")
+        raise TargetError(
+            f"{bounds.contract} cannot be kept on this mesh; the best possible is {bounds.had}"
+        )
 
     def seen(self, draft: Draft) -> str:
         """Return the look of a stream, in words."""
         metric = self._measures.look
-        return "nothing is visible" if metric is None else f"look {metric.distance(draft.decoded):.3g}"
+        return (
+            "nothing is visible" if metric is None else f"look {metric.distance(draft.decoded):.3g}"
+        )
 
 
 class OneSearch:
@@ -112,7 +130,8 @@ class OneSearch:
         self._refusals = 0  # of trials in which faces lose their areas or fold
         self._least = math.inf  # the logarithm of the bytes of the best trial
         self.prospects: list[Prospect] = []
-        self._additions: dict[str, int] = {}  # bytes of attributes and metadata, which depend on the way
+        # Bytes of attributes and metadata, which depend on the way.
+        self._additions: dict[str, int] = {}
 
     def size_of(self, way: Way, trial: Trial) -> float:
         """Return the logarithm of the bytes of a trial, and of attributes as far as their bytes depend on the way."""
@@ -152,7 +171,13 @@ class OneSearch:
             trial = way.at(step)
             index, size = prospect.index_of(trial.step), self.size_of(way, trial)
             prospect.add(index, trial, size)
-            self._trace.note("code", way.name, step=trial.step, size=math.exp(size), reason="finer than the first one")
+            self._trace.note(
+                "code",
+                way.name,
+                step=trial.step,
+                size=math.exp(size),
+                reason="finer than the first one",
+            )
             if size > least + RISE:
                 return
             least = min(least, size)
@@ -166,7 +191,11 @@ class OneSearch:
             if self._least < math.inf and gain <= 0.0:
                 self._trace.note("end", reason="no trial is worth its price")
                 return
-            reason = "nothing keeps the bounds yet" if self._least == math.inf else f"{gain:.2%} expected"
+            reason = (
+                "nothing keeps the bounds yet"
+                if self._least == math.inf
+                else f"{gain:.2%} expected"
+            )
             try:
                 self._open(prospect, index, reason)
             except LimitError:  # blocks that decoders would refuse
@@ -189,7 +218,14 @@ class OneSearch:
         error = self._bounds.excess(trial)
         prospect.judge(index, error)
         size = float(prospect.sizes.mean[index])
-        self._trace.note("draw", way.name, step=trial.step, size=math.exp(size), error=math.exp(error), reason=reason)
+        self._trace.note(
+            "draw",
+            way.name,
+            step=trial.step,
+            size=math.exp(size),
+            error=math.exp(error),
+            reason=reason,
+        )
         if error > 0.0 or size >= self._least:
             return
         is_faulty = self._is_faulty(trial)
@@ -232,9 +268,15 @@ class OneSearch:
         def excess(way: Way, step: float) -> float:
             trial = way.at(step)
             size, error = self.size_of(way, trial), self._bounds.excess(trial)
-            self._trace.note("draw", way.name, step=trial.step, size=math.exp(size), error=math.exp(error))
+            self._trace.note(
+                "draw", way.name, step=trial.step, size=math.exp(size), error=math.exp(error)
+            )
             expected.setdefault(way.name, size + max(error, 0.0))
-            if error <= 0.0 and size < self._least and not self._finer(trial, self._is_faulty(trial)):
+            if (
+                error <= 0.0
+                and size < self._least
+                and not self._finer(trial, self._is_faulty(trial))
+            ):
                 self.best, self._least = trial, size
             # A way that takes more bytes than another one where it is too coarse ends here.
             return error if error <= 0.0 or size < self._least else -SLACK / 4.0
@@ -242,4 +284,11 @@ class OneSearch:
         for tries in (1, TRIES):
             for way in sorted(ways, key=lambda way: expected.get(way.name, 0.0)):
                 with suppress(LimitError):  # blocks that decoders would refuse
-                    secant(partial(excess, way), way.first, way.least, way.most, tries, slack=SLACK / 2.0)
+                    secant(
+                        partial(excess, way),
+                        way.first,
+                        way.least,
+                        way.most,
+                        tries,
+                        slack=SLACK / 2.0,
+                    )

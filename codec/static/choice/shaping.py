@@ -41,33 +41,54 @@ class Shaper:
         a, b = (self._original.positions[corner] for corner in self._original.faces[:, :2].T)
         return float(np.sqrt(squares_of(a - b)).mean()) or 1.0
 
-    def levels(self, base: Positions, goals: Levels, directions: Matrix, worth: float, reach: float) -> Levels:
+    def levels(
+        self, base: Positions, goals: Levels, directions: Matrix, worth: float, reach: float
+    ) -> Levels:
         """Levels along fixed directions."""
         chosen = np.array(goals, np.int32, order="C")
         scales = np.maximum(np.abs(chosen).mean(axis=0), 0.4)
-        moved = np.ascontiguousarray(base + np.einsum("na,naj->nj", chosen.astype(np.float64), directions))
+        moved = np.ascontiguousarray(
+            base + np.einsum("na,naj->nj", chosen.astype(np.float64), directions)
+        )
         flat = np.ascontiguousarray(directions.reshape(len(base), -1))
         aim = worth / len(base), reach, 6
         _kernels.shape_levels(self._wanted, aim, (moved, chosen, self._open), flat, scales, PULL)
         return chosen
 
-    def places(self, goals: Levels, origin: Matrix, step: float, worth: float, reach: float) -> Levels:
+    def places(
+        self, goals: Levels, origin: Matrix, step: float, worth: float, reach: float
+    ) -> Levels:
         """Places on a grid."""
         chosen = np.array(goals, np.int32, order="C")
         flaps = self._flaps
-        bends = chosen[flaps[:, 0]] + chosen[flaps[:, 1]] - chosen[flaps[:, 2]] - chosen[flaps[:, 3]]
+        bends = (
+            chosen[flaps[:, 0]] + chosen[flaps[:, 1]] - chosen[flaps[:, 2]] - chosen[flaps[:, 3]]
+        )
         moved = np.ascontiguousarray(chosen * step + origin)
         aim = worth / (3 * len(chosen)), reach, 6
-        _kernels.shape_grid(self._wanted, aim, (moved, chosen, self._open), step, self._listed_flaps(), bends, RATES)
+        _kernels.shape_grid(
+            self._wanted, aim, (moved, chosen, self._open), step, self._listed_flaps(), bends, RATES
+        )
         return chosen
 
-    def unfold(self, positions: Positions, levels: Levels, directions: Matrix, reach: Matrix) -> Levels | None:
+    def unfold(
+        self, positions: Positions, levels: Levels, directions: Matrix, reach: Matrix
+    ) -> Levels | None:
         """Levels, shape (n, 3), that fold fewer edges, along `directions`, shape (n or 1, 9); None: none is folded."""
         end_phase(len(levels))  # the choice of these levels has taken many arrays
-        chosen, most = np.array(levels, np.int32, order="C"), -(-len(self._original.faces) // 10_000)
+        chosen, most = (
+            np.array(levels, np.int32, order="C"),
+            -(-len(self._original.faces) // 10_000),
+        )
         shaped = np.array(positions), chosen, self._open
         moves = _kernels.unfold_levels(
-            self._wanted, reach, shaped, np.ascontiguousarray(directions), self._listed_flaps(), most, self._limits
+            self._wanted,
+            reach,
+            shaped,
+            np.ascontiguousarray(directions),
+            self._listed_flaps(),
+            most,
+            self._limits,
         )
         return chosen if moves else None
 
@@ -120,6 +141,9 @@ class Shaper:
     def _listed_flaps(self) -> tuple[Indices, Indices, Indices]:
         """Return the flaps, and which of them each vertex is in."""
         # Listed for each use: kept lists take as much memory as the faces twice, and listing is quick.
-        starts, members = np.empty(self._graph.size + 1, np.int32), np.empty(self._flaps.size, np.int32)
+        starts, members = (
+            np.empty(self._graph.size + 1, np.int32),
+            np.empty(self._flaps.size, np.int32),
+        )
         _kernels.list_flaps(self._flaps, starts, members)
         return self._flaps, starts, members

@@ -18,19 +18,24 @@ from bsm.codec.static.preamble_encoding import Draft
 
 RUNG = math.log(2.0) / 8.0
 SPARSE = 3  # rungs from one trial to the next, where the search found none that fits
-WORSE = 0.35  # logarithm of a look, by which a way is expected to be worse than another one, and is not opened
-FAR = 0.25  # of the way from a first step to the one that is expected to fit, which may be wrong by so much
+# Logarithm of a look, by which a way is expected to be worse than another one, and is not opened.
+WORSE = 0.35
+# Of the way from a first step to the one that is expected to fit, which may be wrong by so much.
+FAR = 0.25
 
 
 class SizeSearch:
     """Looks for the best trials of at most so many bytes."""
 
-    def __init__(self, bounds: Bounds, size: Callable[[Draft], int], additions: int, trace: Trace) -> None:
+    def __init__(
+        self, bounds: Bounds, size: Callable[[Draft], int], additions: int, trace: Trace
+    ) -> None:
         self._bounds, self._size, self._additions, self._trace = bounds, size, additions, trace
         graph_size = bounds.measures.prepared.graph.size
         self.usual_size = math.inf  # about the bytes of the default, once ways have told theirs
         self._saving = BYTES * graph_size
-        self._drawn = 1 + math.ceil(graph_size**-0.25 / RUNG)  # rungs of a way, by how lucky looks may be
+        # Rungs of a way, by how lucky looks may be.
+        self._drawn = 1 + math.ceil(graph_size**-0.25 / RUNG)
 
     def trials(self, ways: list[Way], most: float) -> Iterator[tuple[float, Trial]]:
         """Yield trials of at most `most` bytes with their quality, as a logarithm; the lowest is best."""
@@ -38,7 +43,13 @@ class SizeSearch:
             fitting = self._fitting(way, most)
             for trial in fitting:
                 quality = self._bounds.quality(trial)
-                self._trace.note("draw", way.name, step=trial.step, size=trial.draft.size, error=math.exp(quality))
+                self._trace.note(
+                    "draw",
+                    way.name,
+                    step=trial.step,
+                    size=trial.draft.size,
+                    error=math.exp(quality),
+                )
                 if self._bounds.keeps(trial):
                     yield quality, trial
 
@@ -60,7 +71,11 @@ class SizeSearch:
             errors[way.name] = FAR * abs(distance)
         self.usual_size = rival + self._additions
         least = min(finest[name] + errors[name] for name in finest)
-        promising = [way for way in ways if way.name in finest and finest[way.name] - errors[way.name] <= least + WORSE]
+        promising = [
+            way
+            for way in ways
+            if way.name in finest and finest[way.name] - errors[way.name] <= least + WORSE
+        ]
         return sorted(promising, key=lambda way: finest[way.name])
 
     def _fitting(self, way: Way, most: float) -> list[Trial]:
@@ -72,13 +87,19 @@ class SizeSearch:
             """Return by how many bytes a rung is too large."""
             if index not in trials:
                 trials[index] = way.at(math.exp(rungs[index]))
-                self._trace.note("code", way.name, step=trials[index].step, size=self._size(trials[index].draft))
+                self._trace.note(
+                    "code", way.name, step=trials[index].step, size=self._size(trials[index].draft)
+                )
             return self._size(trials[index].final) - most
 
         finest = self._finest(way, rungs, excess)
         if finest is None:
             return []
-        return [trials[index] for index in range(finest, min(finest + self._drawn, len(rungs))) if excess(index) <= 0.0]
+        return [
+            trials[index]
+            for index in range(finest, min(finest + self._drawn, len(rungs)))
+            if excess(index) <= 0.0
+        ]
 
     def _finest(self, way: Way, rungs: Matrix, excess: Callable[[int], float]) -> int | None:
         """Return the index of the finest rung that fits; None: none does."""
@@ -106,7 +127,9 @@ class SizeSearch:
             return high
         # Wide steps move vertices so far that images no longer help: sizes fall, and rise again.
         begin = int(abs(rungs - math.log(way.first)).argmin())
-        return next((index for index in range(begin, len(rungs), SPARSE) if excess(index) <= 0.0), None)
+        return next(
+            (index for index in range(begin, len(rungs), SPARSE) if excess(index) <= 0.0), None
+        )
 
 
 def _every(ladder: Matrix) -> Matrix:

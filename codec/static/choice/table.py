@@ -13,7 +13,8 @@ from bsm.codec.static.options import PRESETS, EncodeOptions
 from bsm.codec.static.preamble_encoding import Prepared
 from bsm.codec.static.targets import ANY_ANGLE
 
-FEWEST_IMAGES = 0.1  # of the vertices, that congruent parts explain, so that grids are coded with them in every trial
+# Of the vertices, that congruent parts explain, so that grids are coded with them in every trial.
+FEWEST_IMAGES = 0.1
 blocks_of = attrgetter("paper", "block_size", "overlap", "key_interval")
 
 

@@ -12,7 +12,8 @@ from bsm.codec.arrays import Matrix, Positions
 from bsm.codec.static.preamble_encoding import Draft
 from bsm.codec.static.targets import SLACK
 
-BYTES = 3.0 / math.log(256.0)  # of a vertex, that a step e times as wide saves where most levels are not 0
+# Of a vertex, that a step e times as wide saves where most levels are not 0.
+BYTES = 3.0 / math.log(256.0)
 DOUBT = 0.15  # standard deviation of the logarithm of a first guess; of a slope, over the slope
 
 
@@ -45,9 +46,11 @@ class Estimate:
     doubt: float
     saving: float  # bytes that a step e times as wide saves
     trial: Trial | None = None  # that of the first step, where it is coded
-    also: tuple[float, ...] = ()  # steps whose trials are coded with the first one, until bytes rise
+    # Steps whose trials are coded with the first one, until bytes rise.
+    also: tuple[float, ...] = ()
     slope_doubt: float = DOUBT  # standard deviation of that saving, over itself
-    kin: str = ""  # ways with the same word err together: the first trial of one corrects the estimates of the others
+    # Ways with the same word err together: the first trial of one corrects the estimates of the others.
+    kin: str = ""
 
 
 class Way(Protocol):
@@ -76,7 +79,9 @@ class Way(Protocol):
 def ladder_of(least: float, most: float) -> Matrix:
     """Return the logarithms of steps between two bounds, which are at the same places for all meshes and promises."""
     low, high = math.log(least), math.log(most)
-    rungs = np.asarray(SLACK * np.arange(math.ceil(low / SLACK), math.floor(high / SLACK) + 1), np.float64)
+    rungs = np.asarray(
+        SLACK * np.arange(math.ceil(low / SLACK), math.floor(high / SLACK) + 1), np.float64
+    )
     return rungs if len(rungs) else np.array([high])
 
 

@@ -80,7 +80,10 @@ def offer(
         return dictionary, project(dictionary, residual, most)
     first = sizes.reach
     if chain.is_exact:  # it is dear, so that a rough one tells how many columns to try
-        first = chain.held or len(_fitting(chain.rough, residual, most, copy(sizes), first)[1]) * 9 // 8 + 8
+        first = (
+            chain.held
+            or len(_fitting(chain.rough, residual, most, copy(sizes), first)[1]) * 9 // 8 + 8
+        )
     return _fitting(made, residual, most, sizes, first)
 
 
@@ -108,7 +111,10 @@ class ChainEncoder:
     def __init__(self, scheme: Scheme, sizing: Sizing, charge: Charge | None = None) -> None:
         self._charge = charge
         self._most, self._sizes = sizing.most, sizing.begin()
-        self._chain, self._coding = Chain(scheme.rules, scheme.blocks, scheme.coding.width), scheme.coding
+        self._chain, self._coding = (
+            Chain(scheme.rules, scheme.blocks, scheme.coding.width),
+            scheme.coding,
+        )
 
     def encode(self, index: int, positions: Matrix) -> CodedBlock:
         """Encode the block of an index; `positions`, shape (n, 3), are those of all vertices, in BSM units."""
@@ -117,7 +123,9 @@ class ChainEncoder:
         residual = positions[vertices] - prediction
         dictionary, coefficients = offer(chain, residual, self._most, self._sizes, self._charge)
         sized = self._sizes is not None
-        coded, payload, decoded = self._coding.write(chain, prediction, dictionary, coefficients, sized)
+        coded, payload, decoded = self._coding.write(
+            chain, prediction, dictionary, coefficients, sized
+        )
         *work, memory = chain.costs(coded)
         # With decoded positions, never with the original ones: the next block is predicted from what decoders have.
         chain.commit(coded, decoded)

@@ -46,7 +46,11 @@ class Raster:
     @property
     def fields(self) -> dict[str, Any]:
         """The fields of the header."""
-        coded = {"light": EXACT if self.exact else int(self.light), "congruence": self.congruence, "turn": self.turn}
+        coded = {
+            "light": EXACT if self.exact else int(self.light),
+            "congruence": self.congruence,
+            "turn": self.turn,
+        }
         return {"center": self.origin, "scale": self.step, "grid": self.largest} | coded
 
 
@@ -59,18 +63,39 @@ def grid_of(header: Header) -> Raster:
 
 
 def grid_field(
-    faces: Any, largest: Sequence[int], coded: Levels, light: int = 0, grid: Raster | None = None, exact: Any = None
+    faces: Any,
+    largest: Sequence[int],
+    coded: Levels,
+    light: int = 0,
+    grid: Raster | None = None,
+    exact: Any = None,
 ) -> Field:
     """The field of coded values, shape (n, 3), from 0 to `largest`, and of `exact` floats; a field can give faces."""
     # One kernel codes all three axes of a vertex: each is predicted from the two before it as well.
-    field, ends, grid = Field(faces, np.ascontiguousarray(coded, np.int32)), np.array(largest, np.int32), grid or UNIT
-    field.grid(ends, light, np.array(grid.origin, np.float64), grid.step, exact, grid.transforms, grid.congruence)
+    field, ends, grid = (
+        Field(faces, np.ascontiguousarray(coded, np.int32)),
+        np.array(largest, np.int32),
+        grid or UNIT,
+    )
+    field.grid(
+        ends,
+        light,
+        np.array(grid.origin, np.float64),
+        grid.step,
+        exact,
+        grid.transforms,
+        grid.congruence,
+    )
     return field
 
 
-def encode_grid(faces: Indices | Field, grid: Raster, coded: Levels, exact: Any = None) -> Iterator[packets.Grid]:
+def encode_grid(
+    faces: Indices | Field, grid: Raster, coded: Levels, exact: Any = None
+) -> Iterator[packets.Grid]:
     """Make the packets of coded values, shape (n, 3), 0 to the grid's largest; of `exact` floats in their cells."""
-    return _packets(grid_field(faces, grid.largest, coded, grid.fields["light"], grid, exact), len(coded))
+    return _packets(
+        grid_field(faces, grid.largest, coded, grid.fields["light"], grid, exact), len(coded)
+    )
 
 
 def encode_going(
@@ -110,4 +135,6 @@ def encode_layer(faces: Indices, levels: Levels, after: int = 0) -> list[packets
     """The packets of the layer of refinement, of levels, shape (n, 3), numbered on from `after`."""
     field, size = levels_field(faces, levels), len(levels)
     chunks = [(start, min(LAYER_CHUNK, size - start)) for start in range(0, size, LAYER_CHUNK)]
-    return [packets.Refinement(after + start, count, *field.write(count)) for start, count in chunks]
+    return [
+        packets.Refinement(after + start, count, *field.write(count)) for start, count in chunks
+    ]

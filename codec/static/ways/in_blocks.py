@@ -23,7 +23,8 @@ from bsm.codec.static.ways.block_coder import Sizing, admit, blended, encode_blo
 from bsm.codec.static.ways.grid import encode_layer
 from bsm.codec.threads import ordered_map
 
-PAPER_FRACTION = 0.10  # coefficients of a block, as a fraction of its vertices, with a fixed number of bits
+# Coefficients of a block, as a fraction of its vertices, with a fixed number of bits.
+PAPER_FRACTION = 0.10
 # Each solution damps high frequencies further, until the last columns are rounding errors of the first.
 MOST_APART = 3
 """Solutions before an Onorm in the paper's mode: more leave little of late columns in single precision."""
@@ -66,7 +67,11 @@ class RefinementBase:
 
     def about(self, layer: Layer) -> float:
         """About the bytes of blocks, cells and levels of a layer, by the sizes of levels."""
-        return self.coded + float(np.log2(1.0 + (2.0 * self.offsets / self.expected_steps(layer)) ** 2).sum()) / 16.0
+        return (
+            self.coded
+            + float(np.log2(1.0 + (2.0 * self.offsets / self.expected_steps(layer)) ** 2).sum())
+            / 16.0
+        )
 
     def known_steps(self, layer: Layer, levels: Levels) -> Matrix:
         """What levels of a layer move each vertex, shape (n, 3), if its heights are those of `levels`, shape (n, 3)."""
@@ -108,7 +113,9 @@ class RefinementBase:
         return moved
 
 
-def refine_blocks(prepared: Prepared, blocks: Draft, layer: Layer, levels: Levels, moved: Matrix) -> Draft:
+def refine_blocks(
+    prepared: Prepared, blocks: Draft, layer: Layer, levels: Levels, moved: Matrix
+) -> Draft:
     """Return the stream of blocks with a layer of levels, shape (n, 3), which bring vertices to where they `moved`."""
     end_phase(len(moved))  # the choice of levels has taken many arrays
     header = replace(blocks.header, refinement=(layer.step, layer.ratio))
@@ -122,7 +129,11 @@ class InBlocks:
     """Codes a mesh in blocks, at one step after another; what depends only on the mesh is measured once."""
 
     def __init__(
-        self, prepared: Prepared, options: EncodeOptions, widest: float = 1.0, overrides: Overrides = AS_SPECIFIED
+        self,
+        prepared: Prepared,
+        options: EncodeOptions,
+        widest: float = 1.0,
+        overrides: Overrides = AS_SPECIFIED,
     ) -> None:
         self._prepared = prepared
         self._options = options
@@ -171,8 +182,13 @@ class InBlocks:
         )
         decoded = smooth(prepared.graph, positions, header.smoothing)
         body = (*prepared.before_blocks, *(block.packet for block in blocks))
-        draft, positions = Draft(header, body, prepared.units.back(decoded)), np.ascontiguousarray(decoded)
-        return RefinementBase(prepared, draft, positions, sum(len(block.packet.data) for block in blocks))
+        draft, positions = (
+            Draft(header, body, prepared.units.back(decoded)),
+            np.ascontiguousarray(decoded),
+        )
+        return RefinementBase(
+            prepared, draft, positions, sum(len(block.packet.data) for block in blocks)
+        )
 
     def _scheme(self, step: float) -> Scheme:
         """How blocks are coded at a step."""
@@ -181,17 +197,23 @@ class InBlocks:
             return Scheme(self._prepared.blocks, rules, self._packed(bits, rules, step))
         # Finer levels would not fit into the integers of the law.
         if step < smallest_step(size):
-            raise OptionError(f"step = {step:g} is too fine for blocks of {size}, try {smallest_step(size):.1e}")
+            raise OptionError(
+                f"step = {step:g} is too fine for blocks of {size}, try {smallest_step(size):.1e}"
+            )
         return Scheme(self._prepared.blocks, rules, Adaptive(self._width(step), single(step)))
 
     def _smoothing(self, blended: Matrix) -> float:
         """The amount of smoothing that lowers the error of the options most."""
         graph = self._prepared.graph
         # Uphill and downhill from the middle, the same amounts may be met twice.
-        badness = lru_cache(None)(lambda place: self._badness(smooth(graph, blended, SMOOTHING_STEPS[place])))
+        badness = lru_cache(None)(
+            lambda place: self._badness(smooth(graph, blended, SMOOTHING_STEPS[place]))
+        )
         place = len(SMOOTHING_STEPS) // 2
         for aside in (1, -1):
-            while 0 <= place + aside < len(SMOOTHING_STEPS) and badness(place + aside) < badness(place):
+            while 0 <= place + aside < len(SMOOTHING_STEPS) and badness(place + aside) < badness(
+                place
+            ):
                 place += aside
         return SMOOTHING_STEPS[place]
 
@@ -239,7 +261,11 @@ class InBlocks:
         return self._eps[1] if self._eps and self._options.paper.bits else self._options.first_step
 
     def _sizing(self, width: int, step: float) -> Sizing:
-        eps = (step * self._eps[0] / self._eps[1], step) if self._eps and self._options.paper.bits else self._eps
+        eps = (
+            (step * self._eps[0] / self._eps[1], step)
+            if self._eps and self._options.paper.bits
+            else self._eps
+        )
         return Sizing(width, min(width, max(1, round(PAPER_FRACTION * self._prepared.size))), eps)
 
     def _packed(self, bits: int, rules: ChainRules, step: float) -> Packed:
@@ -255,7 +281,9 @@ class InBlocks:
                 dictionary, coefficients = offer(chain, block_positions, width, sizes, charge)
                 chain.commit(dictionary.shape[1], block_positions)
                 magnitudes = np.abs(coefficients)
-                largest_yet = np.maximum(largest_yet, [magnitudes[:1].max(), magnitudes[1:].max(initial=0.0)])
+                largest_yet = np.maximum(
+                    largest_yet, [magnitudes[:1].max(), magnitudes[1:].max(initial=0.0)]
+                )
             return largest_yet
 
         chains = rules.chains(blocks.count)

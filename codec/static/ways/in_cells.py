@@ -19,10 +19,13 @@ from bsm.codec.static.ways.in_blocks import InBlocks, RefinementBase
 
 BLOCK, OVERLAP = 450, 1.0
 """CellMesh of a block: fewer take more bytes, more take decoders longer; and how far blocks are grown."""
-CHAIN = 4  # blocks that depend on each other: a lost one loses at most so many, or about 16,000 vertices
+# Blocks that depend on each other: a lost one loses at most so many, or about 16,000 vertices.
+CHAIN = 4
 RATIO = 3.0  # of the steps of cells along tangents, over those along normals
-FARTHEST, LEAST = 2.0**18, 1e-9  # steps that levels may be away, and bends of surfaces some more; and places may be
-APART = 2.83  # steps of cells that may be best, over the usual one, up and down: three powers of two
+# Steps that levels may be away, and bends of surfaces some more; and places may be.
+FARTHEST, LEAST = 2.0**18, 1e-9
+# Steps of cells that may be best, over the usual one, up and down: three powers of two.
+APART = 2.83
 MOST_STEPS = 3  # in this range
 
 
@@ -85,7 +88,9 @@ class InCells:
 
     parts = Parts(BLOCK, OVERLAP)
 
-    def __init__(self, prepared: Prepared, options: EncodeOptions, widest: float, reach: int, rounds: int) -> None:
+    def __init__(
+        self, prepared: Prepared, options: EncodeOptions, widest: float, reach: int, rounds: int
+    ) -> None:
         self._prepared, self._widest = prepared, widest
         self.smoothing = self._reach, self._rounds = reach, rounds
         self._options = replace(options, key_interval=min(options.key_interval, CHAIN))
@@ -129,7 +134,12 @@ class InCells:
         levels = encode_layer(blocks.prepared.mesh.faces, cells.levels)
         positions = prolonged(self.cells, prepared.graph, places, self._rounds)
         base = coarse.graph.size, self._reach, self._rounds, cells.halvings
-        header = replace(blocks.draft.header, vertices=prepared.graph.size, faces=len(prepared.mesh.faces), base=base)
+        header = replace(
+            blocks.draft.header,
+            vertices=prepared.graph.size,
+            faces=len(prepared.mesh.faces),
+            base=base,
+        )
         draft = Draft(header, (*blocks.draft.body, *levels), prepared.units.back(positions))
         coded = blocks.coded + sum(len(packet.data) for packet in levels)
         return RefinementBase(prepared, draft, positions, coded)

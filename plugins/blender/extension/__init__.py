@@ -5,7 +5,14 @@ from contextlib import contextmanager
 
 import bpy
 from bpy.app.handlers import persistent
-from bpy.props import BoolProperty, CollectionProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
+from bpy.props import (
+    BoolProperty,
+    CollectionProperty,
+    EnumProperty,
+    FloatProperty,
+    IntProperty,
+    StringProperty,
+)
 from bpy_extras.io_utils import ExportHelper, ImportHelper
 
 from bsm.codec.static.presets import DEFAULT, SEQUENCE_ROWS
@@ -34,9 +41,15 @@ class BSM_OT_import(bpy.types.Operator, ImportHelper):
     filename_ext = ".bsm"
     filter_glob: StringProperty(default="*.bsm", options={"HIDDEN"})
     directory: StringProperty(subtype="DIR_PATH", options={"SKIP_SAVE", "HIDDEN"})
-    files: CollectionProperty(type=bpy.types.OperatorFileListElement, options={"SKIP_SAVE", "HIDDEN"})
-    own_start: BoolProperty(name="Own First Frame", default=True, description="The number that the stream gives, or 1")
-    frame_start: IntProperty(name="First Frame", default=1, description="Frame of the scene that shows the first one")
+    files: CollectionProperty(
+        type=bpy.types.OperatorFileListElement, options={"SKIP_SAVE", "HIDDEN"}
+    )
+    own_start: BoolProperty(
+        name="Own First Frame", default=True, description="The number that the stream gives, or 1"
+    )
+    frame_start: IntProperty(
+        name="First Frame", default=1, description="Frame of the scene that shows the first one"
+    )
     up: EnumProperty(
         name="Up",
         items=[("z", "Z", ""), ("y", "Y", "")],
@@ -53,7 +66,9 @@ class BSM_OT_import(bpy.types.Operator, ImportHelper):
 
         from .objects import import_file
 
-        names = [os.path.join(self.directory, file.name) for file in self.files if file.name] or [self.filepath]
+        names = [os.path.join(self.directory, file.name) for file in self.files if file.name] or [
+            self.filepath
+        ]
         given = {
             "frame_start": None if self.own_start else self.frame_start,
             "set_scene": self.set_scene,
@@ -69,7 +84,9 @@ class BSM_OT_import(bpy.types.Operator, ImportHelper):
         return {"FINISHED"}
 
     def invoke(self, context, event):
-        return self.invoke_popup(context) if self.files else ImportHelper.invoke(self, context, event)
+        return (
+            self.invoke_popup(context) if self.files else ImportHelper.invoke(self, context, event)
+        )
 
 
 class BSM_OT_export(bpy.types.Operator, ExportHelper):
@@ -81,7 +98,9 @@ class BSM_OT_export(bpy.types.Operator, ExportHelper):
 
     filename_ext = ".bsm"
     filter_glob: StringProperty(default="*.bsm", options={"HIDDEN"})
-    animation: BoolProperty(name="Animation", default=True, description="All frames of the scene, not only this one")
+    animation: BoolProperty(
+        name="Animation", default=True, description="All frames of the scene, not only this one"
+    )
     preset: EnumProperty(name="Preset", items=PRESETS, default=DEFAULT)
     look: FloatProperty(
         name="Look",
@@ -103,11 +122,16 @@ class BSM_OT_export(bpy.types.Operator, ExportHelper):
         quality = {"preset": self.preset} | ({"look": self.look} if self.look else {})
         with progress_of(context) as progress:
             try:
-                done = export_object(self.filepath, animation=self.animation, progress=progress, **quality)
+                done = export_object(
+                    self.filepath, animation=self.animation, progress=progress, **quality
+                )
             except (BsmError, OSError) as error:
                 self.report({"ERROR"}, str(error))
                 return {"CANCELLED"}
-        self.report({"INFO"}, f"{done['frames']} frames of {done['vertices']} vertices in {done['bytes']} bytes")
+        self.report(
+            {"INFO"},
+            f"{done['frames']} frames of {done['vertices']} vertices in {done['bytes']} bytes",
+        )
         return {"FINISHED"}
 
 

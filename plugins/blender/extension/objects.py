@@ -32,8 +32,21 @@ from bsm.files.stream import SequenceStream, decode_whole, peek_header
 from bsm.ground.lengths import metres, unit_of
 
 _DOMAINS = {"vertex": "POINT", "corner": "CORNER", "face": "FACE"}
-_TYPES = {1: ("FLOAT", "value"), 2: ("FLOAT2", "vector"), 3: ("FLOAT_VECTOR", "vector"), 4: ("FLOAT_COLOR", "color")}
-_WIDTHS = {"FLOAT": 1, "INT": 1, "INT8": 1, "BOOLEAN": 1, "FLOAT2": 2, "FLOAT_VECTOR": 3, "FLOAT_COLOR": 4}
+_TYPES = {
+    1: ("FLOAT", "value"),
+    2: ("FLOAT2", "vector"),
+    3: ("FLOAT_VECTOR", "vector"),
+    4: ("FLOAT_COLOR", "color"),
+}
+_WIDTHS = {
+    "FLOAT": 1,
+    "INT": 1,
+    "INT8": 1,
+    "BOOLEAN": 1,
+    "FLOAT2": 2,
+    "FLOAT_VECTOR": 3,
+    "FLOAT_COLOR": 4,
+}
 _OWN = ("position", "sharp_face", "material_index", "custom_normal")
 
 
@@ -56,13 +69,26 @@ def data_of(mesh: TriangleMesh, name: str) -> Any:
 
 
 def _add(made: Any, attribute: Attribute) -> None:
-    values = attribute.values if attribute.indices is None else attribute.values[attribute.indices.reshape(-1)]
+    values = (
+        attribute.values
+        if attribute.indices is None
+        else attribute.values[attribute.indices.reshape(-1)]
+    )
     domain, width = _DOMAINS[attribute.domain], attribute.components
-    if attribute.name == "material" and domain == "FACE" and width == 1 and values.dtype.kind in "iu":
+    if (
+        attribute.name == "material"
+        and domain == "FACE"
+        and width == 1
+        and values.dtype.kind in "iu"
+    ):
         made.polygons.foreach_set("material_index", np.maximum(values[:, 0], 0).astype(np.int32))
         return
     if attribute.semantic == "normal" and width == 3 and domain != "FACE":
-        split = made.normals_split_custom_set_from_vertices if domain == "POINT" else made.normals_split_custom_set
+        split = (
+            made.normals_split_custom_set_from_vertices
+            if domain == "POINT"
+            else made.normals_split_custom_set
+        )
         split(values.astype(np.float64).tolist())
         return
     if attribute.semantic == "texcoord" and width == 2 and domain != "FACE":
@@ -102,11 +128,14 @@ def _material(look: Appearance, metadata: Metadata, number: int) -> Any:
     for name in ("metallic", "roughness"):
         if look.says(name):
             shader.inputs[name.capitalize()].default_value = getattr(look, name)
-    data = images_in(metadata).get(look.color_texture.image if look.color_texture else -1, ("", b""))[1]
+    data = images_in(metadata).get(
+        look.color_texture.image if look.color_texture else -1, ("", b"")
+    )[1]
     if kind := kind_of_image(data):
         node = made.node_tree.nodes.new("ShaderNodeTexImage")
         name = f"{made.name}.{kind}"
-        with tempfile.TemporaryDirectory() as folder:  # packed into the project, from the bytes of its file
+        # Packed into the project, from the bytes of its file.
+        with tempfile.TemporaryDirectory() as folder:
             path = Path(folder, name.replace(os.sep, "_"))
             path.write_bytes(data)
             node.image = bpy.data.images.load(str(path))
@@ -143,7 +172,9 @@ def attributes_of(data: Any, corners: Array) -> tuple[Attribute, ...]:
         domain: Domain = {"POINT": "vertex", "CORNER": "corner", "FACE": "face"}[layer.domain]  # type: ignore[assignment]
         name = unused_name(layer.name, domain, found)
         indices = corners if domain == "corner" else None
-        found[name] = Attribute(name, values[owner] if domain == "face" else values, domain, semantic, indices)
+        found[name] = Attribute(
+            name, values[owner] if domain == "face" else values, domain, semantic, indices
+        )
     slots = np.empty(len(data.polygons), np.int32)
     data.polygons.foreach_get("material_index", slots)
     if slots.any() and "material" not in found:
@@ -183,16 +214,26 @@ def materials_of(slots: Any) -> dict[str, str | int | float | bytes]:
         if shader is None:
             continue
         color = [*shader.inputs["Base Color"].default_value][:3]
-        found[f"material.{number}.baseColorFactor"] = " ".join(f"{component:.6g}" for component in (*color, 1.0))
+        found[f"material.{number}.baseColorFactor"] = " ".join(
+            f"{component:.6g}" for component in (*color, 1.0)
+        )
         for name, socket in (("metallicFactor", "Metallic"), ("roughnessFactor", "Roughness")):
             found[f"material.{number}.{name}"] = float(shader.inputs[socket].default_value)
-        shown = [socket.name for socket in shader.inputs if socket.links and socket.name != "Base Color"]
+        shown = [
+            socket.name for socket in shader.inputs if socket.links and socket.name != "Base Color"
+        ]
         links = shader.inputs["Base Color"].links
-        image = links[0].from_node.image if links and links[0].from_node.type == "TEX_IMAGE" else None
+        image = (
+            links[0].from_node.image if links and links[0].from_node.type == "TEX_IMAGE" else None
+        )
         packed = bytes(image.packed_file.data) if image is not None and image.packed_file else b""
         shown += ["Base Color"] if links and not kind_of_image(packed) else []
         if shown:
-            warn([f"material {material.name}: left out, only packed images of colors are kept: {', '.join(shown)}"])
+            warn(
+                [
+                    f"material {material.name}: left out, only packed images of colors are kept: {', '.join(shown)}"
+                ]
+            )
         if kind_of_image(packed):
             found[f"material.{number}.baseColorTexture"] = images
             found[f"image.{images}.data"] = packed
@@ -203,7 +244,8 @@ def materials_of(slots: Any) -> dict[str, str | int | float | bytes]:
 # ------------------------------------------------------------------------------------------------------------------- in
 
 
-STREAM = "bsm_stream"  # of an object, what it plays, or the object that has it: a project keeps it, packed or moved
+# Of an object, what it plays, or the object that has it: a project keeps it, packed or moved.
+STREAM = "bsm_stream"
 RUN = "bsm_run"  # the run that it plays
 MOST_STREAM_BYTES = 1 << 28
 _MODIFIER = "BSM"
@@ -211,7 +253,12 @@ Progress = Callable[[int, int], None]
 
 
 def import_file(
-    path: str, *, frame_start: int | None = None, set_scene: bool = True, up: str = "", progress: Progress | None = None
+    path: str,
+    *,
+    frame_start: int | None = None,
+    set_scene: bool = True,
+    up: str = "",
+    progress: Progress | None = None,
 ) -> list[Any]:
     """Import a stream; the objects, selected, the first active; `up` ("y", "z") is its axis, where it says none."""
     header, chunks = peek_header(read_chunks(path))
@@ -243,7 +290,13 @@ def _placed(name: str, mesh: TriangleMesh, up: str) -> Any:
 
 
 def _sequence(
-    name: str, data: bytes, source: str, frame_start: int | None, set_scene: bool, up: str, progress: Progress | None
+    name: str,
+    data: bytes,
+    source: str,
+    frame_start: int | None,
+    set_scene: bool,
+    up: str,
+    progress: Progress | None,
 ) -> list[Any]:
     """An object for each run of frames that share their faces, seen while it plays."""
     found: list[tuple[Any, int, int]] = []
@@ -260,7 +313,9 @@ def _sequence(
         cache.frame_start = frame_start + begun
         found.append((made, begun, begun + count))
     for made, begun, end in found if len(found) > 1 else ():
-        for hidden, at in ((True, begun - 1), (False, begun), (True, end))[begun == 0 : 2 + (end < found[-1][2])]:
+        for hidden, at in ((True, begun - 1), (False, begun), (True, end))[
+            begun == 0 : 2 + (end < found[-1][2])
+        ]:
             for switch in ("hide_viewport", "hide_render"):
                 setattr(made, switch, hidden)
                 made.keyframe_insert(switch, frame=frame_start + at)
@@ -285,11 +340,16 @@ def _runs(data: bytes) -> Iterator[tuple[int, TriangleMesh, Iterator[tuple[int, 
     count = stream.header.frames if len(inspect_stream(iter([data])).runs) == 1 else 0
     for _, frames in groupby(stream.changing_frames(), lambda _: len(stream.run_starts)):
         begun, first = next(frames)
-        yield begun, TriangleMesh(first, stream.faces, stream.attributes, stream.metadata), frames, count  # noqa: B031
+        mesh = TriangleMesh(first, stream.faces, stream.attributes, stream.metadata)
+        yield begun, mesh, frames, count  # noqa: B031
 
 
 def _write(
-    path: str, first: Positions, others: Iterator[tuple[int, Positions]], count: int, progress: Progress | None
+    path: str,
+    first: Positions,
+    others: Iterator[tuple[int, Positions]],
+    count: int,
+    progress: Progress | None,
 ) -> int:
     """A PC2 of all frames; how many there are. The stream need not say that beforehand."""
     if not count:
@@ -343,7 +403,12 @@ def restore_caches() -> list[str]:
 
 
 def export_object(
-    path: str, moving: Any = None, *, animation: bool = True, progress: Progress | None = None, **keywords: Any
+    path: str,
+    moving: Any = None,
+    *,
+    animation: bool = True,
+    progress: Progress | None = None,
+    **keywords: Any,
 ) -> dict[str, int]:
     """Write an object to a stream; how many frames, vertices, faces and bytes that are."""
     moving = moving or bpy.context.view_layer.objects.active
@@ -351,8 +416,14 @@ def export_object(
         raise OptionError("no object is active: select the one to export")
     scene = bpy.context.scene
     before = scene.frame_current
-    numbers = range(scene.frame_start, scene.frame_end + 1) if animation else range(before, before + 1)
-    metadata: dict[str, Any] = {"name": moving.name, "up": "z", **materials_of(moving.material_slots)}
+    numbers = (
+        range(scene.frame_start, scene.frame_end + 1) if animation else range(before, before + 1)
+    )
+    metadata: dict[str, Any] = {
+        "name": moving.name,
+        "up": "z",
+        **materials_of(moving.material_slots),
+    }
     if scene.unit_settings.system != "NONE" and abs(scene.unit_settings.scale_length - 1.0) < 1e-6:
         metadata["unit"] = "meters"
     try:
@@ -363,11 +434,15 @@ def export_object(
                 raise MeshError(f"{moving.name} has no faces")
             attributes, first = attributes_of(data, corners), _points(data, place)
         if not animation:
-            written = [encode(TriangleMesh(first, faces, attributes), metadata=metadata, **keywords)]
+            written = [
+                encode(TriangleMesh(first, faces, attributes), metadata=metadata, **keywords)
+            ]
         else:
             rate = scene.render.fps / scene.render.fps_base
             frames = _frames(scene, moving, numbers, progress)
-            source = Frames(faces, len(numbers), frames, tuple(attributes), frame_rate=rate, metadata=metadata)
+            source = Frames(
+                faces, len(numbers), frames, tuple(attributes), frame_rate=rate, metadata=metadata
+            )
             shown = TriangleMesh(first, faces)
             written = given_frames(source, Wishes(keywords=keywords), shown).chunks(None)  # type: ignore[assignment]
         with open_output(path, overwrite=True) as file:
@@ -377,7 +452,9 @@ def export_object(
     return {"frames": len(numbers), "vertices": len(first), "faces": len(faces), "bytes": size}
 
 
-def _frames(scene: Any, moving: Any, numbers: range, progress: Progress | None) -> Iterator[Positions]:
+def _frames(
+    scene: Any, moving: Any, numbers: range, progress: Progress | None
+) -> Iterator[Positions]:
     known: tuple[int, ...] = ()
     for done, number in enumerate(numbers, 1):
         scene.frame_set(number)

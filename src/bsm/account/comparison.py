@@ -27,7 +27,9 @@ from bsm.files.output import open_output
 from bsm.files.pipes import as_input
 
 
-def write_permutation(path: str | os.PathLike[str], order: npt.NDArray[np.integer], *, overwrite: bool) -> None:
+def write_permutation(
+    path: str | os.PathLike[str], order: npt.NDArray[np.integer], *, overwrite: bool
+) -> None:
     with open_output(path, overwrite=overwrite) as file:
         write_npy(file, order.astype(np.int64))
 
@@ -38,14 +40,18 @@ def read_permutation(path: str | os.PathLike[str]) -> Order:
     except (ValueError, EOFError, MemoryError) as error:
         raise FormatError(f"{path} is not an npy file: {error}") from error
     if order.ndim != 1 or order.dtype.kind not in "iu" or len(np.unique(order)) != len(order):
-        raise FormatError(f"{path} does not hold the order of vertices that bsm encode --permutation writes")
+        raise FormatError(
+            f"{path} does not hold the order of vertices that bsm encode --permutation writes"
+        )
     return order.astype(np.int64)
 
 
 def reorder(mesh: TriangleMesh, order: Order) -> TriangleMesh:
     """Number the vertices as the input of the encoder did, without those that no face used."""
     if len(order) != len(mesh.positions):
-        raise MeshError(f"the permutation has {len(order)} vertices, the mesh has {len(mesh.positions)}")
+        raise MeshError(
+            f"the permutation has {len(order)} vertices, the mesh has {len(mesh.positions)}"
+        )
     rows, every_face = np.argsort(order), np.arange(len(mesh.faces))
     attributes = tuple(attribute.taken(rows, every_face) for attribute in mesh.attributes)
     faces = np.argsort(rows)[mesh.faces].astype(np.int32)
@@ -58,15 +64,21 @@ def order_of_used(given: npt.ArrayLike, original: TriangleMesh, decoded: Triangl
     if order.ndim != 1 or order.dtype.kind not in "iu":
         raise ArgumentError(f"order must be a list of whole numbers, not {given!r}")
     if len(order) != len(decoded.positions):
-        raise MeshError(f"the permutation has {len(order)} vertices, the mesh has {len(decoded.positions)}")
+        raise MeshError(
+            f"the permutation has {len(order)} vertices, the mesh has {len(decoded.positions)}"
+        )
     before, after = (mesh.without_isolated_vertices()[1] for mesh in (original, decoded))
     rows = np.searchsorted(before, order[after]).clip(max=len(before) - 1)
     if len(np.unique(order)) < len(order) or not np.array_equal(before[rows], order[after]):
-        raise MeshError("the permutation does not name vertices of the original that faces use, each once")
+        raise MeshError(
+            "the permutation does not name vertices of the original that faces use, each once"
+        )
     return rows
 
 
-def in_order_of(original: TriangleMesh, other: TriangleMesh, order: Order | None = None) -> Positions:
+def in_order_of(
+    original: TriangleMesh, other: TriangleMesh, order: Order | None = None
+) -> Positions:
     """The positions of `other`, numbered as in `original`; neither may have vertices that no face uses."""
     return placed(original, other, numbering(original, other, order))
 
@@ -80,7 +92,8 @@ def numbering(original: TriangleMesh, other: TriangleMesh, order: Order | None =
     """Return the vertex of `other` that each vertex of `original` is; -1: it lost its faces when vertices merged."""
     count = len(other.positions)
     if len(original.positions) > count:
-        for exact in (False, True):  # lossless streams keep the sign of zero, and vertices that differ only there
+        # Lossless streams keep the sign of zero, and vertices that differ only there.
+        for exact in (False, True):
             joined = join(original, keep=False, exact=exact)
             if len(joined.mesh.positions) == count:
                 by_joined = None if order is None else joined.index[order].astype(np.int64)
@@ -108,7 +121,9 @@ def numbering(original: TriangleMesh, other: TriangleMesh, order: Order | None =
         encoded = encode_connectivity(faces, count)
         if np.array_equal(by_decoder.faces, encoded.faces):
             return encoded.vertex_order[np.argsort(by_decoder.vertex_order)].astype(np.int64)
-    raise MeshError("the meshes have different faces or another order of vertices; use --permutation or --surface")
+    raise MeshError(
+        "the meshes have different faces or another order of vertices; use --permutation or --surface"
+    )
 
 
 def _collapsed(original: TriangleMesh, other: TriangleMesh) -> str:
@@ -117,7 +132,9 @@ def _collapsed(original: TriangleMesh, other: TriangleMesh) -> str:
 
     faces = cKDTree(other.positions).query(original.positions)[1][original.faces].astype(np.int32)
     faces = faces[(faces != np.roll(faces, 1, axis=1)).all(axis=1)]
-    same = faces.shape == other.faces.shape and np.array_equal(canonical(faces), canonical(other.faces))
+    same = faces.shape == other.faces.shape and np.array_equal(
+        canonical(faces), canonical(other.faces)
+    )
     return ", which are the same but for those that collapsed where vertices merged" if same else ""
 
 
@@ -140,12 +157,16 @@ def paired_frames(
     (mesh, kept), (other, other_kept) = (side.without_isolated_vertices() for side in whole)
     before = original[:, kept]
     index = group_rows(np.concatenate(before, axis=1))
-    apart = TriangleMesh(np.column_stack([index] * 3), mesh.faces)  # where vertices that part have two places
+    # Where vertices that part have two places.
+    apart = TriangleMesh(np.column_stack([index] * 3), mesh.faces)
     rows = numbering(apart, other, None if order is None else order_of_used(order, *whole))
     after = np.where(rows[:, None] < 0, before, decoded[:, other_kept[rows]])
-    alike = len(mesh.faces) == len(other.faces) and bool((rows >= 0).all())  # or faces have collapsed
+    # Or faces have collapsed.
+    alike = len(mesh.faces) == len(other.faces) and bool((rows >= 0).all())
     none = np.empty(0, np.int64)
-    return FramePair(before, after, mesh.faces, *(paired_corners(mesh, other, rows) if alike else (none, none)))
+    return FramePair(
+        before, after, mesh.faces, *(paired_corners(mesh, other, rows) if alike else (none, none))
+    )
 
 
 def one_each(before: Positions, after: Positions, faces: Faces, kept: int) -> tuple[Order, Faces]:
@@ -176,7 +197,9 @@ def unsplit(original: TriangleMesh, other: TriangleMesh) -> TriangleMesh | None:
     whole = np.full(len(other.positions), -1, np.int64)
     whole[other.faces] = faces
     positions = other.positions[some]
-    fits = np.array_equal(whole[other.faces], faces) and np.array_equal(positions[faces], other.positions[other.faces])
+    fits = np.array_equal(whole[other.faces], faces) and np.array_equal(
+        positions[faces], other.positions[other.faces]
+    )
     return TriangleMesh(positions, faces) if fits else None
 
 
@@ -227,7 +250,9 @@ def pair(original: TriangleMesh, decoded: TriangleMesh, order: Order | None = No
             numbering(original, decoded)
             # Pieces of a mesh that is split at its seams may be alike: only places tell them apart.
             copies = len(first_of(group_rows(np.ascontiguousarray(original.positions, np.float64))))
-            merged = copies < len(original.positions) and not np.array_equal(original.faces, decoded.faces)
+            merged = copies < len(original.positions) and not np.array_equal(
+                original.faces, decoded.faces
+            )
     if merged:
         # An encoder makes vertices at one position one, and a file may need them split.
         given, whole = original, join(original, keep=False)
@@ -238,34 +263,55 @@ def pair(original: TriangleMesh, decoded: TriangleMesh, order: Order | None = No
             else:
                 whole = join(decoded, keep=False)
                 decoded, kept[1] = whole.mesh, whole.coded_faces
-            if len(original.positions) > len(decoded.positions):  # it may have merged others in single precision
-                whole = join(replace(given, positions=given.positions.astype(np.float32)), keep=False)
-                original, kept[0] = replace(whole.mesh, positions=given.positions[whole.first]), whole.coded_faces
+            # It may have merged others in single precision.
+            if len(original.positions) > len(decoded.positions):
+                whole = join(
+                    replace(given, positions=given.positions.astype(np.float32)), keep=False
+                )
+                original, kept[0] = (
+                    replace(whole.mesh, positions=given.positions[whole.first]),
+                    whole.coded_faces,
+                )
     try:
         rows = numbering(original, decoded, order)
     except MeshError:
         from scipy.spatial import cKDTree
 
         nearest = cKDTree(original.positions).query(decoded.positions)[1]
-        if order is not None or not len(nearest) == len(np.unique(nearest)) == len(original.positions):
+        if order is not None or not len(nearest) == len(np.unique(nearest)) == len(
+            original.positions
+        ):
             raise
         rows = numbering(original, decoded, nearest)
     none = np.empty(0, np.int64)
     pairs = paired_corners(original, decoded, rows) if attributed else (none, none)
-    corners, others = (3 * given[found // 3] + found % 3 for given, found in zip(kept, pairs, strict=True))
+    corners, others = (
+        3 * given[found // 3] + found % 3 for given, found in zip(kept, pairs, strict=True)
+    )
     positions = placed(original, decoded, rows)
-    first, corners_of = one_each(original.positions[None], positions[None], original.faces, len(decoded.faces))
+    first, corners_of = one_each(
+        original.positions[None], positions[None], original.faces, len(decoded.faces)
+    )
     if len(first) < len(positions):
-        original, positions, merged = TriangleMesh(original.positions[first], corners_of), positions[first], True
+        original, positions, merged = (
+            TriangleMesh(original.positions[first], corners_of),
+            positions[first],
+            True,
+        )
     return Pair(original, positions, corners, others, merged)
 
 
 def compare_meshes(original: TriangleMesh, decoded: TriangleMesh, paired: Pair) -> MeshComparison:
     first, second, faces = paired.original.positions, paired.positions, paired.original.faces
     positions = compare(first, second, faces)  # refuses sizes that overflow below
-    places = [len(first_of(group_rows(np.ascontiguousarray(points, np.float64)))) for points in (first, second)]
+    places = [
+        len(first_of(group_rows(np.ascontiguousarray(points, np.float64))))
+        for points in (first, second)
+    ]
     counts = {"flattened": flattened(first, second, faces), "merged": max(0, places[0] - places[1])}
-    return MeshComparison(**asdict(positions), attributes=compare_attributes(original, decoded, paired), **counts)
+    return MeshComparison(
+        **asdict(positions), attributes=compare_attributes(original, decoded, paired), **counts
+    )
 
 
 def flattened(before: Positions, after: Positions, faces: Faces) -> int:
@@ -279,7 +325,9 @@ def compare_attributes(
     """Compare attributes at the corners of faces; None: an attribute is missing."""
     areas = np.repeat(face_geometry(original.positions, original.faces).areas, 3)[paired.corners]
     return {
-        one.name: None if other is None else _compare_one(one, other, (original.faces, decoded.faces), paired, areas)
+        one.name: None
+        if other is None
+        else _compare_one(one, other, (original.faces, decoded.faces), paired, areas)
         for one, other in _same_attributes(original.attributes, decoded.attributes)
     }
 
@@ -288,11 +336,22 @@ def _same_attributes(
     original: Sequence[Attribute], decoded: Sequence[Attribute]
 ) -> Iterator[tuple[Attribute, Attribute | None]]:
     """Attributes and what became of them: one of the name, or one of the meaning, as three.js says uv for texcoord."""
-    after, own = {attribute.name: attribute for attribute in decoded}, {attribute.name for attribute in original}
-    named = (other for other in reversed(decoded) if other.name not in own and other.semantic != "generic")
+    after, own = (
+        {attribute.name: attribute for attribute in decoded},
+        {attribute.name for attribute in original},
+    )
+    named = (
+        other
+        for other in reversed(decoded)
+        if other.name not in own and other.semantic != "generic"
+    )
     renamed = {other.semantic: other for other in named}
     for attribute in original:
-        other = after[attribute.name] if attribute.name in after else renamed.pop(attribute.semantic, None)
+        other = (
+            after[attribute.name]
+            if attribute.name in after
+            else renamed.pop(attribute.semantic, None)
+        )
         yield attribute, other if other and other.components == attribute.components else None
 
 
@@ -301,13 +360,19 @@ def names_apart(original: TriangleMesh, decoded: TriangleMesh) -> dict[str, list
     pairs = [*_same_attributes(original.attributes, decoded.attributes)]
     partners = {id(other) for _, other in pairs if other is not None}
     first = [name_in_file(original.metadata, one) for one, other in pairs if other is None]
-    second = [name_in_file(decoded.metadata, one) for one in decoded.attributes if id(one) not in partners]
+    second = [
+        name_in_file(decoded.metadata, one) for one in decoded.attributes if id(one) not in partners
+    ]
     for one, other in pairs:
         if other is not None and one.name == other.name and one.semantic == "generic":
             names = [name_in_file(mesh.metadata, one) for mesh in (original, decoded)]
             first += names[:1] if names[0] != names[1] else []
             second += names[1:] if names[0] != names[1] else []
-    return {key: names for key, names in (("only_in_original", first), ("only_in_decoded", second)) if names}
+    return {
+        key: names
+        for key, names in (("only_in_original", first), ("only_in_decoded", second))
+        if names
+    }
 
 
 def _compare_one(
@@ -322,19 +387,25 @@ def _compare_one(
     others = at_corners(other, faces[1]).reshape(-1, attribute.components)[paired.others]
     if attribute.semantic == "color" and values.dtype != others.dtype:
         values, others = map(shares_of, (values, others))
-    return compare_values(values, others, areas if attribute.semantic == "normal" and len(areas) else None)
+    return compare_values(
+        values, others, areas if attribute.semantic == "normal" and len(areas) else None
+    )
 
 
 Errors: TypeAlias = dict[str, float]
 """Errors of an attribute by their names."""
 
 
-def errors_of(found: Mapping[str, AttributeComparison | None], original: TriangleMesh) -> dict[str, Errors | None]:
+def errors_of(
+    found: Mapping[str, AttributeComparison | None], original: TriangleMesh
+) -> dict[str, Errors | None]:
     """Return the errors of attributes by their names; those of texture coordinates in texels, too."""
     side, known = largest_side(original.metadata), dict[str, Errors | None]()
     for attribute in original.attributes:
         errors = found.get(attribute.name)
-        numbers = errors and {what: value for what, value in asdict(errors).items() if value is not None}
+        numbers = errors and {
+            what: value for what, value in asdict(errors).items() if value is not None
+        }
         if numbers and side and attribute.semantic == "texcoord":
             numbers["max_error_texels"] = side * numbers["max_error"]
         known[attribute.name] = numbers or None
@@ -367,7 +438,9 @@ def errors_of_frames(
                 continue
             seen[one.name] = one, other
             errors = None if other is None else _compare_one(one, other, faces, paired, np.empty(0))
-            found[one.name] = None if errors is None else _larger(found.get(one.name), errors, first + number)
+            found[one.name] = (
+                None if errors is None else _larger(found.get(one.name), errors, first + number)
+            )
     return found
 
 
@@ -390,7 +463,11 @@ def worded_errors(errors: Errors) -> str:
 
 def _flat_faces(positions: Positions, faces: Faces) -> Mask:
     """Which faces, shape (m,), have no area, but for the rounding of coordinates."""
-    a, b, c = (np.asarray(positions, np.float64)[corner] for corner in np.ascontiguousarray(faces.T))
+    a, b, c = (
+        np.asarray(positions, np.float64)[corner] for corner in np.ascontiguousarray(faces.T)
+    )
     longest = np.sqrt(np.max([squares_of(side) for side in (b - a, c - b, a - c)], axis=0))
     area = np.sqrt(squares_of(np.cross(b - a, c - a)))
-    return np.asarray(area <= 8.0 * np.finfo(np.float64).eps * np.abs(positions).max(initial=0.0) * longest)
+    return np.asarray(
+        area <= 8.0 * np.finfo(np.float64).eps * np.abs(positions).max(initial=0.0) * longest
+    )

@@ -19,7 +19,8 @@ from bsm.ground.console import Console
 from bsm.ground.lengths import unit_of
 from bsm.ground.pictures import Bar, bounds_of, colors_of, png, render, with_titles
 
-SHOWN = 99.0  # percentile of the errors that has the last color: single vertices shall not make all others blue
+# Percentile of the errors that has the last color: single vertices shall not make all others blue.
+SHOWN = 99.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,9 +32,13 @@ class Panel:
     far: npt.NDArray[np.float64] | None = None
 
 
-def drawing(panels: Sequence[Panel], original: TriangleMesh, console: Console, *views: Matrix) -> bytes:
+def drawing(
+    panels: Sequence[Panel], original: TriangleMesh, console: Console, *views: Matrix
+) -> bytes:
     """Return a PNG file of meshes from each of the views; a note says so if matplotlib cannot write the titles."""
-    every = np.concatenate([panel.far for panel in panels if panel.far is not None] or [np.zeros(1)])
+    every = np.concatenate(
+        [panel.far for panel in panels if panel.far is not None] or [np.zeros(1)]
+    )
     top, largest = last_color(every), float(every.max(initial=0.0))
     pictures, titles = [], []
     for view in views:
@@ -42,10 +47,16 @@ def drawing(panels: Sequence[Panel], original: TriangleMesh, console: Console, *
         bounds = bounds_of(original.positions, view)
         for panel in panels:
             colors = surface_colors(panel.mesh) if panel.far is None else heat(panel, top)
-            drawn = render(panel.mesh.positions, panel.mesh.faces, view=view, bounds=bounds, colors=colors)
+            drawn = render(
+                panel.mesh.positions, panel.mesh.faces, view=view, bounds=bounds, colors=colors
+            )
             pictures.append(drawn)
             titles.append(panel.title)
-    scale, unit = (1.0, unit_of(original.metadata)) if unit_of(original.metadata) else (100.0, "% of the diagonal")
+    scale, unit = (
+        (1.0, unit_of(original.metadata))
+        if unit_of(original.metadata)
+        else (100.0, "% of the diagonal")
+    )
     scale /= 1.0 if scale == 1.0 else original.diagonal or 1.0
     bar = Bar(scale * top, scale * largest, f"{unit}; largest {scale * largest:.3g}")
     try:
@@ -62,20 +73,31 @@ def last_color(far: npt.NDArray[np.float64]) -> float:
 
 def heat(panel: Panel, top: float) -> npt.NDArray[np.float64]:
     assert panel.far is not None
-    found: npt.NDArray[np.float64] = colors_of(panel.far / top)[panel.mesh.faces].mean(axis=1) / 255.0
+    found: npt.NDArray[np.float64] = (
+        colors_of(panel.far / top)[panel.mesh.faces].mean(axis=1) / 255.0
+    )
     return found
 
 
 def surface_colors(mesh: TriangleMesh) -> npt.NDArray[np.float64] | None:
     """The color of each face, shape (m, 3): by colors of the mesh, or by its textures; None without any."""
-    painted = next((a for a in mesh.attributes if a.semantic == "color" and a.components >= 3), None)
+    painted = next(
+        (a for a in mesh.attributes if a.semantic == "color" and a.components >= 3), None
+    )
     if painted is not None:
-        return np.asarray(shares_of(at_corners(painted, mesh.faces))[..., :3].mean(axis=1), np.float64)
-    placed = next((at_corners(a, mesh.faces) for a in mesh.attributes if a.semantic == "texcoord"), None)
+        return np.asarray(
+            shares_of(at_corners(painted, mesh.faces))[..., :3].mean(axis=1), np.float64
+        )
+    placed = next(
+        (at_corners(a, mesh.faces) for a in mesh.attributes if a.semantic == "texcoord"), None
+    )
     known = {number: appearance(words) for number, words in materials_in(mesh.metadata).items()}
     if placed is None or not any(look.color_texture for look in known.values()):
         return None
-    own = next((a.values[:, 0] for a in mesh.attributes if a.name == "material" and a.domain == "face"), None)
+    own = next(
+        (a.values[:, 0] for a in mesh.attributes if a.name == "material" and a.domain == "face"),
+        None,
+    )
     numbers = np.full(len(mesh.faces), min(known)) if own is None else own
     colors = np.ones((len(mesh.faces), 3))
     for number, look in known.items():
@@ -85,7 +107,9 @@ def surface_colors(mesh: TriangleMesh) -> npt.NDArray[np.float64] | None:
 
 def _sampled(look: Appearance, mesh: TriangleMesh, places: Matrix) -> Matrix:
     """Colors of a material at texture coordinates, shape (k, 2), which count from the bottom."""
-    data = images_in(mesh.metadata).get(look.color_texture.image if look.color_texture else -1, ("", b""))[1]
+    data = images_in(mesh.metadata).get(
+        look.color_texture.image if look.color_texture else -1, ("", b"")
+    )[1]
     image = None
     # Without Pillow the plain color is better than no picture.
     with suppress(DependencyError):

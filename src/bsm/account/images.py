@@ -44,7 +44,11 @@ class ImageComparison:
         if self.before == self.after and self.psnr_db is None:
             return f"{self.name}: {self.before}; unchanged"
         ratio = (
-            "" if self.psnr_db is None else f", PSNR {self.psnr_db:.1f} dB" if self.psnr_db < math.inf else ", exact"
+            ""
+            if self.psnr_db is None
+            else f", PSNR {self.psnr_db:.1f} dB"
+            if self.psnr_db < math.inf
+            else ", exact"
         )
         return f"{self.name}: {self.before} -> {self.after}{ratio}"
 
@@ -59,7 +63,9 @@ def compare_images(before: Metadata, after: Metadata) -> list[ImageComparison]:
     given = {number: (name, data) for number, (name, data) in images_in(before).items() if data}
     names = {PurePath(name).stem: data for name, data in images_in(after).values() if name and data}
     return [
-        compare_image(name or f"image {number}", data, there.get(number, names.get(PurePath(name).stem, b"")))
+        compare_image(
+            name or f"image {number}", data, there.get(number, names.get(PurePath(name).stem, b""))
+        )
         for number, (name, data) in given.items()
     ]
 
@@ -67,7 +73,9 @@ def compare_images(before: Metadata, after: Metadata) -> list[ImageComparison]:
 def compare_image(name: str, before: bytes, after: bytes) -> ImageComparison:
     """Compare the files of an image; empty bytes: it is missing."""
     pictures = (file_of(before), file_of(after) if after else None)
-    return ImageComparison(name, *pictures, None if before == after or not after else _ratio(before, after))
+    return ImageComparison(
+        name, *pictures, None if before == after or not after else _ratio(before, after)
+    )
 
 
 def file_of(data: bytes) -> ImageFile:

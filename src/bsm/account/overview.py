@@ -33,7 +33,17 @@ _UP_Y = (".obj", ".glb", ".gltf", ".dae")
 PAGE_LIMITS = Limits.service()
 """Memory and work of a mesh that is only drawn."""
 _COLUMNS = (
-    *("input", "output", "input_bytes", "output_bytes", "vertices", "faces", "look", "max_error", "max_error_relative"),
+    *(
+        "input",
+        "output",
+        "input_bytes",
+        "output_bytes",
+        "vertices",
+        "faces",
+        "look",
+        "max_error",
+        "max_error_relative",
+    ),
     *("seconds", "error", "exit", "output_sha256", "notes"),
 )
 _STYLE = (
@@ -75,7 +85,9 @@ def write_table(results: Sequence[Facts]) -> bytes:
     table.writeheader()
     for result in results:
         notes = "; ".join(result.get("notes") or ())
-        table.writerow({name: _guarded(value) for name, value in {**result, "notes": notes}.items()})
+        table.writerow(
+            {name: _guarded(value) for name, value in {**result, "notes": notes}.items()}
+        )
     return text.getvalue().encode()
 
 
@@ -89,10 +101,21 @@ def _guarded(value: object) -> object:
 def write_page(title: str, results: Sequence[Facts], load: Load) -> bytes:
     """Return the page of results as HTML in one file, with pictures of inputs and outputs."""
     ordered = sorted(results, key=_severity)
-    rows = "\n".join(_row(result, load, has_picture=place < MOST_PICTURES) for place, result in enumerate(ordered))
+    rows = "\n".join(
+        _row(result, load, has_picture=place < MOST_PICTURES)
+        for place, result in enumerate(ordered)
+    )
     left = len(ordered) - MOST_PICTURES
     more = f"<p>The last {left} rows have no pictures.</p>" if left > 0 else ""
-    heads = ("file", "before, after", "bytes", "relative size", "look distance", "largest error", "notes")
+    heads = (
+        "file",
+        "before, after",
+        "bytes",
+        "relative size",
+        "look distance",
+        "largest error",
+        "notes",
+    )
     head = "".join(f"<th>{name}</th>" for name in heads)
     name = html.escape(title)
     page = (
@@ -105,7 +128,11 @@ def write_page(title: str, results: Sequence[Facts], load: Load) -> bytes:
 
 def _severity(result: Facts) -> tuple[bool, float, float]:
     """Order failures before results, and large errors before small ones."""
-    return "error" not in result, -(result.get("look") or 0.0), -(result.get("max_error_relative") or 0.0)
+    return (
+        "error" not in result,
+        -(result.get("look") or 0.0),
+        -(result.get("max_error_relative") or 0.0),
+    )
 
 
 def _summary(results: Sequence[Facts]) -> str:
@@ -137,12 +164,16 @@ def _picture(result: Facts, load: Load) -> str:
     meshes = [load(name) for name in names]
     up = meshes[0].metadata.get("up")
     source = str(meshes[0].metadata.get("source_name", result["input"]))
-    view = _VIEW @ _UPRIGHT if up == "y" or (up is None and source.lower().endswith(_UP_Y)) else _VIEW
+    view = (
+        _VIEW @ _UPRIGHT if up == "y" or (up is None and source.lower().endswith(_UP_Y)) else _VIEW
+    )
     bounds = bounds_of(meshes[0].positions, view)
     drawn = []
     for mesh in meshes:
         colors = surface_colors(mesh)
-        drawn.append(render(mesh.positions, mesh.faces, SIDE, view=view, bounds=bounds, colors=colors))
+        drawn.append(
+            render(mesh.positions, mesh.faces, SIDE, view=view, bounds=bounds, colors=colors)
+        )
     data = base64.b64encode(png(np.hstack(drawn))).decode()
     name = html.escape(f"{result['input']} before and after")
     return f'<img width="{SIDE * len(drawn)}" height="{SIDE}" alt="{name}" src="data:image/png;base64,{data}">'
@@ -169,7 +200,9 @@ def _error(result: Facts) -> str:
     share = result.get("max_error_relative")
     if share is None:
         return ""
-    length = f"{result['max_error']:.3g} {html.escape(result['unit'])}, " if result.get("unit") else ""
+    length = (
+        f"{result['max_error']:.3g} {html.escape(result['unit'])}, " if result.get("unit") else ""
+    )
     return f"{length}{100 * share:.3g} % of the diagonal"
 
 

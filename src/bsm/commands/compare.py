@@ -33,7 +33,13 @@ from bsm.bitstream.limits import as_limits
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.attributes import Attribute, Semantic
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh, require_sizes
-from bsm.codec.geometry.metrics import Reference, distances_to_surface, folded_edges, rms_over_edge, surface_distance
+from bsm.codec.geometry.metrics import (
+    Reference,
+    distances_to_surface,
+    folded_edges,
+    rms_over_edge,
+    surface_distance,
+)
 from bsm.codec.look.measure import LOOK_VERSION, AttributeLook, Look, LookMetric, look_values
 from bsm.codec.sequence.targets import Runs, compare_runs
 from bsm.commands.flags import add_flags
@@ -73,7 +79,9 @@ def run(args: argparse.Namespace, console: Console) -> int:
     if args.recursive:
         return _compare_trees(args, console)
     if args.report:
-        raise OptionError("--report is for folders, with -r; --json prints the result of one comparison")
+        raise OptionError(
+            "--report is for folders, with -r; --json prints the result of one comparison"
+        )
     _compare_one(args, console)
     return 0
 
@@ -81,7 +89,9 @@ def run(args: argparse.Namespace, console: Console) -> int:
 def _compare_trees(args: argparse.Namespace, console: Console) -> int:
     """Compare the files of two folders, with a line for each, and the largest error; return the code of a failure."""
     if args.map or args.picture or args.permutation or args.surface:
-        raise OptionError("-r compares whole folders; leave out --surface, --picture, --map and --permutation")
+        raise OptionError(
+            "-r compares whole folders; leave out --surface, --picture, --map and --permutation"
+        )
     if args.report:
         report_kind(args.report)
         refuse_to_overwrite(args.report, args.force)
@@ -92,9 +102,13 @@ def _compare_trees(args: argparse.Namespace, console: Console) -> int:
         try:
             facts["output"] = counterpart = _same_name(path, args)
             original, decoded = (
-                _load(name, args, console).without_isolated_vertices()[0] for name in (path, counterpart)
+                _load(name, args, console).without_isolated_vertices()[0]
+                for name in (path, counterpart)
             )
-            facts |= {f"{way}_bytes": size_of(name) for way, name in (("input", path), ("output", counterpart))}
+            facts |= {
+                f"{way}_bytes": size_of(name)
+                for way, name in (("input", path), ("output", counterpart))
+            }
             if args.look:
                 facts["look"] = LookMetric(original).compare(decoded).distance
             images = compare_images(original.metadata, decoded.metadata)
@@ -147,10 +161,17 @@ def _same_name(path: str, args: argparse.Namespace) -> str:
     longer = (Path(f"{place}{end}") for end in endings)
     # An output may keep the suffix of its input (part.obj.bsm) or replace it (part.bsm). The name as it stands comes
     # first.
-    candidates = [place, *longer, place.with_suffix(""), *(place.with_suffix(end) for end in endings)]
+    candidates = [
+        place,
+        *longer,
+        place.with_suffix(""),
+        *(place.with_suffix(end) for end in endings),
+    ]
     match = next((name for name in candidates if name.is_file()), None)
     if match is None:
-        raise FileNotFoundError(errno.ENOENT, "no file of this name, in any format", str(place.with_suffix("")))
+        raise FileNotFoundError(
+            errno.ENOENT, "no file of this name, in any format", str(place.with_suffix(""))
+        )
     return str(match)
 
 
@@ -194,7 +215,10 @@ def _compare_one(args: argparse.Namespace, console: Console) -> None:
             compared = {}
             if args.surface:
                 compared = _apart(original, decoded)
-    attributes, images = compared.pop("attributes", {}), compare_images(original.metadata, decoded.metadata)
+    attributes, images = (
+        compared.pop("attributes", {}),
+        compare_images(original.metadata, decoded.metadata),
+    )
     apart = names_apart(original, decoded)
     if args.json:
         facts: dict[str, Any] = {}
@@ -251,7 +275,9 @@ def _seen(
         titles = (Path(args.original).name, Path(args.decoded).name)
         meshes = [Panel(mesh, title) for mesh, title in zip((original, decoded), titles)]
         # From the side where the difference is largest: any other might show nothing of it.
-        picture = drawing((*meshes, _errors_of(original, decoded)), original, console, looker.view(decoded))
+        picture = drawing(
+            (*meshes, _errors_of(original, decoded)), original, console, looker.view(decoded)
+        )
         write_output(args.picture, picture, overwrite=args.force)
     return distance, more
 
@@ -264,7 +290,11 @@ def _errors_of(original: TriangleMesh, decoded: TriangleMesh) -> Panel:
         # One direction is enough for colors: each vertex that is drawn has a distance.
         far = distances_to_surface(decoded.positions, original.positions, original.faces)
         return Panel(decoded, "distance from the original", far)
-    return Panel(paired.original, "error", np.linalg.norm(paired.positions - paired.original.positions, axis=1))
+    return Panel(
+        paired.original,
+        "error",
+        np.linalg.norm(paired.positions - paired.original.positions, axis=1),
+    )
 
 
 def explained(numbers: dict[str, Any]) -> list[str]:
@@ -276,7 +306,11 @@ def explained(numbers: dict[str, Any]) -> list[str]:
 
 
 def _compared(
-    original: TriangleMesh, decoded: TriangleMesh, paired: Pair, args: argparse.Namespace, console: Console
+    original: TriangleMesh,
+    decoded: TriangleMesh,
+    paired: Pair,
+    args: argparse.Namespace,
+    console: Console,
 ) -> dict[str, Any]:
     if paired.joined:
         console.note("vertices at one position are merged for this comparison")
@@ -286,9 +320,15 @@ def _compared(
     result = {name: value for name, value in asdict(compared).items() if name != "attributes"}
     attributes = errors_of(compared.attributes, original)
     before, after, faces = paired.original.positions, paired.positions, paired.original.faces
-    result |= {"folded_before": folded_edges(before, faces), "folded_after": folded_edges(after, faces)}
+    result |= {
+        "folded_before": folded_edges(before, faces),
+        "folded_after": folded_edges(after, faces),
+    }
     if args.surface:  # what the literature on denoising measures
-        result |= {"mnd": Reference(before, faces).mnd(after), "rms_over_edge": rms_over_edge(before, after, faces)}
+        result |= {
+            "mnd": Reference(before, faces).mnd(after),
+            "rms_over_edge": rms_over_edge(before, after, faces),
+        }
         result |= _apart(original, decoded)
     return {**{name: finite(value) for name, value in result.items()}, "attributes": attributes}
 
@@ -297,9 +337,15 @@ def _apart(original: TriangleMesh, decoded: TriangleMesh) -> dict[str, float]:
     """The distances between two surfaces."""
     require_sizes(np.concatenate([original.positions, decoded.positions]), done="compared")
     # Squares of distances overflow for coordinates beyond 1e150, and would come out as "no distance".
-    distances = surface_distance(original.positions, original.faces, decoded.positions, decoded.faces)
+    distances = surface_distance(
+        original.positions, original.faces, decoded.positions, decoded.faces
+    )
     relative = distances.hausdorff / (original.diagonal or 1.0)
-    return {"hausdorff": distances.hausdorff, "surface_distance": distances.mean, "hausdorff_relative": relative}
+    return {
+        "hausdorff": distances.hausdorff,
+        "surface_distance": distances.mean,
+        "hausdorff_relative": relative,
+    }
 
 
 def sentence(compared: dict[str, Any], unit: str) -> str:
@@ -335,12 +381,17 @@ def _load(path: str, args: argparse.Namespace, console: Console) -> TriangleMesh
 def _compare_sequences(args: argparse.Namespace, console: Console) -> bool:
     paths, changing = (args.original, args.decoded), Wanted(runs=True)
     with console.progress("reading") as progress:
-        sides = [_load_sequence(path, args, changing if names_many(path) else None) for path in paths]
+        sides = [
+            _load_sequence(path, args, changing if names_many(path) else None) for path in paths
+        ]
         if sides == [None, None]:
             return False
         # An animated glTF can be meant either way. What stands beside it decides.
         # An animated glTF is a sequence where the other one is.
-        sides = [_load_sequence(path, args, changing) if side is None else side for path, side in zip(paths, sides)]
+        sides = [
+            _load_sequence(path, args, changing) if side is None else side
+            for path, side in zip(paths, sides)
+        ]
         original, decoded = sides
         if original is None or decoded is None:
             moving, still = paths
@@ -350,7 +401,9 @@ def _compare_sequences(args: argparse.Namespace, console: Console) -> bool:
             _load(still, args, console)  # what cannot be read says so
             raise MeshError(f"{moving} is a sequence, but {still} is a single mesh")
         if args.map:
-            raise OptionError("--map is for single meshes; for sequences, --picture draws the error of each frame")
+            raise OptionError(
+                "--map is for single meshes; for sequences, --picture draws the error of each frame"
+            )
         progress.stage("comparing")
         text = _compared_sequences(args, original, decoded, progress)
     print(text)
@@ -364,7 +417,9 @@ Frames = list[tuple[Positions, Faces, Attributes]]
 def _runs_of(original: Frames, decoded: Frames) -> Iterator[tuple[Frames, Frames]]:
     """Frames between which the faces of neither side change: one may have fewer runs, if faces lose their area."""
     starts = [0]
-    for number, (one, second) in enumerate(zip(pairwise(original), pairwise(decoded), strict=True), 1):
+    for number, (one, second) in enumerate(
+        zip(pairwise(original), pairwise(decoded), strict=True), 1
+    ):
         # Equal faces, not the same array: some readers make new ones for each frame.
         if any(len(a[0]) != len(b[0]) or not np.array_equal(a[1], b[1]) for a, b in (one, second)):
             starts.append(number)
@@ -384,7 +439,9 @@ def _load_sequence(path: str, args: argparse.Namespace, request: Wanted | None) 
             if header is None or not header.gop_frames:
                 return None
             stream = SequenceStream(chunks, limits=as_limits(args.limits))
-            return [(frame, stream.faces, stream.attributes) for _, frame in stream.changing_frames()]
+            return [
+                (frame, stream.faces, stream.attributes) for _, frame in stream.changing_frames()
+            ]
         source = open_sequence(path, request=request)
         if source is None:
             return None
@@ -393,10 +450,14 @@ def _load_sequence(path: str, args: argparse.Namespace, request: Wanted | None) 
         return [(mesh.positions, mesh.faces, mesh.attributes) for mesh in source.meshes]
 
 
-def _compared_sequences(args: argparse.Namespace, original: Frames, decoded: Frames, progress: Progress) -> str:
+def _compared_sequences(
+    args: argparse.Namespace, original: Frames, decoded: Frames, progress: Progress
+) -> str:
     """Return the errors of a sequence, as text."""
     if len(original) != len(decoded):
-        raise MeshError(f"{args.original} has {len(original)} frames and {args.decoded} {len(decoded)}")
+        raise MeshError(
+            f"{args.original} has {len(original)} frames and {args.decoded} {len(decoded)}"
+        )
     pairs = list(_runs_of(original, decoded))
     if args.permutation and len(pairs) > 1:
         raise OptionError("--permutation is the order of one mesh, and the faces change")
@@ -406,11 +467,16 @@ def _compared_sequences(args: argparse.Namespace, original: Frames, decoded: Fra
     runs: list[tuple[Positions, Positions, Faces]] = []
     attributes: dict[str, Errors | None] = {}
     for first, second in pairs:
-        (before, (ours, *_), values), (after, (theirs, *_), decoded_values) = zip(*first), zip(*second)
+        (before, (ours, *_), values), (after, (theirs, *_), decoded_values) = (
+            zip(*first),
+            zip(*second),
+        )
         paired = paired_frames(np.array(before), ours, np.array(after), theirs, order)
         used, faces = one_each(paired.before, paired.after, paired.faces, len(theirs))
         count = sum(len(before) for before, _, _ in runs)
-        for name, errors in errors_of_frames(values, decoded_values, (ours, theirs), paired, count).items():
+        for name, errors in errors_of_frames(
+            values, decoded_values, (ours, theirs), paired, count
+        ).items():
             earlier = attributes.get(name, errors)
             # None stands for a missing attribute, and once it is missing in some run, the whole must say so.
             larger = (errors and earlier) and max(errors, earlier, key=lambda one: one["max_error"])
@@ -430,7 +496,9 @@ def _compared_sequences(args: argparse.Namespace, original: Frames, decoded: Fra
         from bsm.evaluation.curve import frame_errors
 
         refuse_to_overwrite(args.picture, args.force)
-        write_output(args.picture, frame_errors(of_frames, Path(args.decoded).name), overwrite=args.force)
+        write_output(
+            args.picture, frame_errors(of_frames, Path(args.decoded).name), overwrite=args.force
+        )
     if args.json:
         numbers: dict[str, Any] = {name: finite(value) for name, value in result.items()}
         if attributes:
@@ -446,7 +514,9 @@ def _looks(runs: Runs, progress: Callable[[int, int], None]) -> dict[str, float]
     """Return the look distances of the worst frame and the mean of all visible frames; see `codec.look`."""
     distances = []
     pairs = [
-        (before, after, faces) for first, second, faces in runs for before, after in zip(first, second, strict=True)
+        (before, after, faces)
+        for first, second, faces in runs
+        for before, after in zip(first, second, strict=True)
     ]
     for number, (before, after, faces) in enumerate(pairs):
         progress(number, len(pairs))
@@ -463,18 +533,26 @@ def _looks(runs: Runs, progress: Callable[[int, int], None]) -> dict[str, float]
 
 
 def _write_map(
-    args: argparse.Namespace, original: TriangleMesh, positions: Positions, metadata: Metadata, console: Console
+    args: argparse.Namespace,
+    original: TriangleMesh,
+    positions: Positions,
+    metadata: Metadata,
+    console: Console,
 ) -> None:
     """Write the original with the distance of each vertex from `positions`, shape (n, 3), as colors."""
     path, overwrite = args.map, args.force
     kind = "png" if Path(path).suffix.lower() == ".png" else format_of_name(path)
     if kind not in ("png", *COLORED):
-        raise OptionError(f"{path}: a map of distances is a picture (.png) or a mesh (.{', .'.join(COLORED)})")
+        raise OptionError(
+            f"{path}: a map of distances is a picture (.png) or a mesh (.{', .'.join(COLORED)})"
+        )
     refuse_to_overwrite(path, overwrite)
     distances = np.linalg.norm(positions - original.positions, axis=1)
     top, largest = last_color(distances), float(distances.max(initial=0.0))
     unit = unit_of(metadata)
-    console.note(f"{path}: red is {length(top, unit)} and more; the largest error is {length(largest, unit)}")
+    console.note(
+        f"{path}: red is {length(top, unit)} and more; the largest error is {length(largest, unit)}"
+    )
     if kind == "png":
         labelled = replace(original, metadata=metadata)
         # Errors on the far side would be hidden, so the picture shows both.
@@ -483,7 +561,9 @@ def _write_map(
         picture = drawing([panel], labelled, console, DEFAULT_VIEW, behind)
         write_output(path, picture, overwrite=overwrite)
         return
-    color = Attribute("color", np.rint(colors_of(distances / top)).astype(np.uint8), "vertex", "color")
+    color = Attribute(
+        "color", np.rint(colors_of(distances / top)).astype(np.uint8), "vertex", "color"
+    )
     # The distances themselves are kept as well: other programs can choose their own colors.
     mesh = replace(original.bare, attributes=(color, Attribute("distance", distances)))
     save_written(path, written_mesh(mesh, kind, path), overwrite=overwrite)

@@ -29,9 +29,21 @@ Save = Callable[[dict[str, Table], Iterable[rates.Picture]], None]
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add = adder(parser)
     add("meshes", "MESH", "mesh files. Without any, only draw earlier results", nargs="*")
-    add("-o --output", "OUT", "folder for JSON and pictures, or one picture (.png, .svg, .pdf)", required=True)
-    which = "comma-separated codecs: ours, paper (SVD and orthogonal iterations, 12 bits), draco, or "
-    add("--codecs", "LIST", f"{which}single lines such as svd,oi-r2 (default: all)", default=",".join(GROUPS))
+    add(
+        "-o --output",
+        "OUT",
+        "folder for JSON and pictures, or one picture (.png, .svg, .pdf)",
+        required=True,
+    )
+    which = (
+        "comma-separated codecs: ours, paper (SVD and orthogonal iterations, 12 bits), draco, or "
+    )
+    add(
+        "--codecs",
+        "LIST",
+        f"{which}single lines such as svd,oi-r2 (default: all)",
+        default=",".join(GROUPS),
+    )
     blocks = "number of blocks for the codecs of the paper (default: blocks of 500 vertices)"
     points = "points of another codec: CSV with the columns label, bpv, theta_deg or nmsve_db, and mesh if there are "
     add(
@@ -42,7 +54,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         default=[],
     )
     add("--blocks", "K", blocks, type=within(1))
-    add("--repeat", "N", "repeat each measurement; the fastest counts (default 1)", type=within(1), default=1)
+    add(
+        "--repeat",
+        "N",
+        "repeat each measurement; the fastest counts (default 1)",
+        type=within(1),
+        default=1,
+    )
     add("--csv", "", "also write the tables as FOLDER/*.csv")
     add("--latex", "", "also write the tables as FOLDER/*.tex (booktabs)")
     add("--pdf", "", "also write the pictures as PDF")
@@ -58,7 +76,9 @@ def run(args: argparse.Namespace, console: Console) -> None:
         _run(args, output, console, partial(_save, folder=output, args=args, console=console))
         return
     if not args.meshes or args.csv or args.latex or args.pdf:
-        raise OptionError(f"{output} is one picture of meshes; for tables or earlier results, give a folder: -o curves")
+        raise OptionError(
+            f"{output} is one picture of meshes; for tables or earlier results, give a folder: -o curves"
+        )
     refuse_to_overwrite(output, args.force)
     pictures: list[rates.Picture] = []
     with TemporaryDirectory() as folder:
@@ -74,7 +94,8 @@ def _run(args: argparse.Namespace, folder: Path, console: Console, save: Save) -
     # A run takes minutes to hours. It must not end at the last step, for want of a package.
     _refuse_missing(args.codecs if args.meshes else "ours")
     # All meshes are read before the first is measured, for the same reason, and so are the points of others.
-    chosen = [(Path(path).stem, read_mesh(path).mesh.bare) for path in args.meshes]  # rates are those of the shape
+    # Rates are those of the shape.
+    chosen = [(Path(path).stem, read_mesh(path).mesh.bare) for path in args.meshes]
     facts = {result["mesh"]["name"]: result["mesh"] for result in rates.read_results(folder)}
     facts |= {name: rates.mesh_facts(mesh, name) for name, mesh in chosen}
     for rival in (rival for path in args.points for rival in rates.read_points(path, facts)):
@@ -87,14 +108,24 @@ def _run(args: argparse.Namespace, folder: Path, console: Console, save: Save) -
         if ours:
             # Last, since it is asked for the errors of the others' points.
             all_results = rates.read_results(folder)
-            measure(rates.our_curve(r for r in all_results if r["mesh"]["name"] == name and r["codec"] != "ours"))
+            measure(
+                rates.our_curve(
+                    r for r in all_results if r["mesh"]["name"] == name and r["codec"] != "ours"
+                )
+            )
     results = list(rates.read_results(folder))
     if not results:
         raise OptionError(f"{folder} contains no results; name meshes to measure")
     draco = {result["mesh"]["name"]: result for result in results if result["codec"] == "draco"}
-    tested = [result for result in results if result["codec"] != "draco" and result["mesh"]["name"] in draco]
+    tested = [
+        result
+        for result in results
+        if result["codec"] != "draco" and result["mesh"]["name"] in draco
+    ]
     comparisons = [rates.compare_curves(draco[result["mesh"]["name"]], result) for result in tested]
-    tables = {"points": _measured(results)} | ({"draco": _compared(comparisons)} if comparisons else {})
+    tables = {"points": _measured(results)} | (
+        {"draco": _compared(comparisons)} if comparisons else {}
+    )
     if args.json:
         print_json({"comparisons": comparisons})
     else:
@@ -102,14 +133,15 @@ def _run(args: argparse.Namespace, folder: Path, console: Console, save: Save) -
     for row in comparisons:
         for measure, count in row["beaten"].items():
             if count:
-                number = (
-                    f"{row['mesh']}, {row['codec']}: its BD-rate by {measure} leaves out {count} of its points, which"
-                )
-                console.note(f"{number} are larger and worse than another one")
+                place = f"{row['mesh']}, {row['codec']}"
+                left_out = f"its BD-rate by {measure} leaves out {count} of its points"
+                console.note(f"{place}: {left_out}, which are larger and worse than another one")
     save(tables, rates.draw_all(results, args.codecs.split(",")))
 
 
-def _measure(mesh: TriangleMesh, name: str, repeats: int, folder: Path, console: Console, curve: rates.Curve) -> None:
+def _measure(
+    mesh: TriangleMesh, name: str, repeats: int, folder: Path, console: Console, curve: rates.Curve
+) -> None:
     with console.progress(f"{name}, {curve.label}") as progress:
         result = rates.run_curve(curve, mesh, name, repeats, progress, console.note)
     # After each curve, so that a run that is stopped keeps its results.
@@ -150,7 +182,9 @@ def _chosen(names: str, vertices: int, blocks: int | None) -> tuple[list[rates.C
     """The curves of other codecs, and whether ours is asked for, too."""
     # 500 vertices are the blocks of the paper's figures.
     paper = rates.paper_curves(round(vertices / blocks) if blocks else 500)
-    groups = {"ours": (), "paper": paper, "draco": (rates.DRACO,)} | {line.name: (line,) for line in paper}
+    groups = {"ours": (), "paper": paper, "draco": (rates.DRACO,)} | {
+        line.name: (line,) for line in paper
+    }
     chosen = names.split(",")
     unknown = [name for name in chosen if name not in groups]
     if unknown:
@@ -182,12 +216,26 @@ def _measured(results: Sequence[dict[str, Any]]) -> Table:
 def _compared(comparisons: Sequence[dict[str, Any]]) -> Table:
     rows = [
         (
-            *(row["mesh"], row["codec"], *(rates.number(row["bytes_at_theta"][angle], 3) for angle in ("7", "10"))),
-            *("-" if (rate := row["bd_rate_percent"][name]) is None else f"{rate:+.1f} %" for name in rates.UNITS),
+            *(
+                row["mesh"],
+                row["codec"],
+                *(rates.number(row["bytes_at_theta"][angle], 3) for angle in ("7", "10")),
+            ),
+            *(
+                "-" if (rate := row["bd_rate_percent"][name]) is None else f"{rate:+.1f} %"
+                for name in rates.UNITS
+            ),
         )
         for row in comparisons
     ]
-    return ("mesh", "codec", "bytes at 7°", "bytes at 10°", "BD-rate, theta", "BD-rate, NMSVE"), rows
+    return (
+        "mesh",
+        "codec",
+        "bytes at 7°",
+        "bytes at 10°",
+        "BD-rate, theta",
+        "BD-rate, NMSVE",
+    ), rows
 
 
 def _words(tables: dict[str, Table]) -> str:

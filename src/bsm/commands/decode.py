@@ -22,12 +22,25 @@ from bsm.files.images import is_link, linked_images, with_linked_images
 from bsm.files.inspection import inspect_stream
 from bsm.files.libraries import as_decoded
 from bsm.files.mesh import save_written, unheard, unknown_suffix, written_mesh
-from bsm.files.output import default_output, no_link, output_inside, refuse_collisions, refuse_to_overwrite
+from bsm.files.output import (
+    default_output,
+    no_link,
+    output_inside,
+    refuse_collisions,
+    refuse_to_overwrite,
+)
 from bsm.files.parsing import PRECISION
 from bsm.files.partial import blocks_in_words, decode_blocks, decode_what_is_left
 from bsm.files.pipes import about, read_chunks, size_of
 from bsm.files.stream import SequenceStream, decode_whole, is_scene, peek_header, refuse_mesh
-from bsm.files.table import MESH_SUFFIXES, ONE_FILE, SEQUENCE_FORMATS, WRITTEN_FORMATS, by_name, format_of_name
+from bsm.files.table import (
+    MESH_SUFFIXES,
+    ONE_FILE,
+    SEQUENCE_FORMATS,
+    WRITTEN_FORMATS,
+    by_name,
+    format_of_name,
+)
 from bsm.ground.console import Console, printable
 from bsm.ground.lengths import known_unit, metres, unit_of
 from bsm.jobs.packages import copy_descriptions
@@ -110,7 +123,11 @@ def _as_source(job: Job) -> Job:
     with suppress(BsmError, OSError):  # decoding it will say so
         name = str(inspect_stream(read_chunks(job.input)).metadata.get("source_name", ""))
     # The name comes from the stream, that is from anyone. It must not lead out of the folder, or hide the file.
-    if name != Path(name).name or name.startswith(".") or Path(name).suffix.lower() not in MESH_SUFFIXES:
+    if (
+        name != Path(name).name
+        or name.startswith(".")
+        or Path(name).suffix.lower() not in MESH_SUFFIXES
+    ):
         return job
     # A format that cannot be written is replaced by one that loses least of its contents.
     suffix = "glb" if Path(name).suffix.lower() == ".gltf" else "vtp"  # which holds fields
@@ -135,7 +152,9 @@ def decode_one(args: DecodeJob, console: Console) -> Facts:
         # Whole, in part and damaged streams have three readers, since each promises something else: everything or an
         # error, a prefix, and whatever is left.
         if args.tolerant:
-            mesh = decode_what_is_left(chunks, lambda text: console.note(f"{args.input}: {text}"), limits)
+            mesh = decode_what_is_left(
+                chunks, lambda text: console.note(f"{args.input}: {text}"), limits
+            )
         elif args.blocks is None:
             mesh = decode_whole(chunks, limits, layers=args.layers)
         else:
@@ -178,10 +197,14 @@ def _notes_on_part(args: DecodeJob, header: Header) -> Iterator[str]:
 
 def _note_unheard(args: DecodeJob, console: Console, metadata: Metadata, kind: str) -> None:
     if names := unheard(metadata, kind):
-        console.note(f"{args.input}: other programs do not read {names} in {kind}; write GLB or USD, or --unit-out m")
+        console.note(
+            f"{args.input}: other programs do not read {names} in {kind}; write GLB or USD, or --unit-out m"
+        )
 
 
-def _as_asked(args: DecodeJob, console: Console, mesh: TriangleMesh, kind: str, *, exact: bool) -> TriangleMesh:
+def _as_asked(
+    args: DecodeJob, console: Console, mesh: TriangleMesh, kind: str, *, exact: bool
+) -> TriangleMesh:
     """A mesh in the requested unit and precision, which says that it was decoded if it is not exact."""
     # A file made of a lossy stream says so. If it is encoded again, errors add up, and the encoder can warn.
     fields = mesh.metadata if exact else as_decoded(mesh.metadata)
@@ -191,9 +214,14 @@ def _as_asked(args: DecodeJob, console: Console, mesh: TriangleMesh, kind: str, 
     metadata, scale = {name: value for name, value in fields.items() if name not in left_out}, 1.0
     if args.unit_out:
         # Only a known unit can be converted. To invent one would change the size of the mesh by powers of ten.
-        scale_of_stream, scale_of_output = metres(unit_of(metadata)), known_unit(args.unit_out, "unit")
+        scale_of_stream, scale_of_output = (
+            metres(unit_of(metadata)),
+            known_unit(args.unit_out, "unit"),
+        )
         if scale_of_stream is None:
-            console.note(f"{args.input}: not scaled: its unit is {printable(unit_of(metadata)) or 'not known'}")
+            console.note(
+                f"{args.input}: not scaled: its unit is {printable(unit_of(metadata)) or 'not known'}"
+            )
         else:
             scale, metadata["unit"] = scale_of_stream / scale_of_output, args.unit_out
     # Writers look for this mark, and round; positions stay doubles until then, so that scaling does not round twice.
@@ -223,8 +251,12 @@ def _decode_scene(args: DecodeJob, console: Console) -> Facts:
     # A scene that wraps a sequence of ours holds the whole stream, and decodes as that would.
     if (moving := document.moving) is not None:
         return _decode_sequence(args, console, iter([moving]))
-    if args.tolerant or any(option is not None for option in (args.blocks, args.layers, args.permutation, args.frames)):
-        raise OptionError("--blocks, --layers, --tolerant, --permutation and --frames are for streams, not for scenes")
+    if args.tolerant or any(
+        option is not None for option in (args.blocks, args.layers, args.permutation, args.frames)
+    ):
+        raise OptionError(
+            "--blocks, --layers, --tolerant, --permutation and --frames are for streams, not for scenes"
+        )
     (output, kind), begin = _mesh_output(args), time.perf_counter()
     if kind == "glb":
         file = Written(by_name("bsm.gltf.compress", "restore")(document))
@@ -237,7 +269,13 @@ def _decode_scene(args: DecodeJob, console: Console) -> Facts:
 
 
 def _saved(
-    args: DecodeJob, console: Console, output: str, kind: str, file: Written, counts: str, seconds: float
+    args: DecodeJob,
+    console: Console,
+    output: str,
+    kind: str,
+    file: Written,
+    counts: str,
+    seconds: float,
 ) -> Facts:
     """Write a file, and note its size and losses."""
     left_out = save_written(output, file, overwrite_beside=args.force, **args.placing(output))
@@ -246,7 +284,13 @@ def _saved(
     received, written = size_of(args.input), len(file.data)
     console.note(f"{args.input} -> {output}: {counts}{came_to(received, written)}, {seconds:.2f} s")
     sizes = {"input_bytes": received, "output_bytes": written}
-    return {"input": args.input, "output": output, **sizes, "seconds": seconds, "left_out": list(left_out)}
+    return {
+        "input": args.input,
+        "output": output,
+        **sizes,
+        "seconds": seconds,
+        "left_out": list(left_out),
+    }
 
 
 def _decode_sequence(args: DecodeJob, console: Console, chunks: Iterator[bytes]) -> Facts:
@@ -284,17 +328,24 @@ def _decode_sequence(args: DecodeJob, console: Console, chunks: Iterator[bytes])
         shared = Shared(lambda: stream.attributes, lambda: metadata, first=first)
     writer = sequence_writer(output, kind, faces, expected, shared=shared, **args.placing(output))
     with writer as write, console.progress("decoding") as progress:
-        for count, (number, frame) in enumerate(takewhile(lambda found: found[0] < last, chain(ahead, frames)), 1):
+        for count, (number, frame) in enumerate(
+            takewhile(lambda found: found[0] < last, chain(ahead, frames)), 1
+        ):
             changed = stream.run_starts[-1:] == [number]
             # A permutation belongs to one set of faces.
             if args.permutation and changed:
-                raise OptionError(f"--permutation is the order of one mesh, but the faces change at frame {number}")
+                raise OptionError(
+                    f"--permutation is the order of one mesh, but the faces change at frame {number}"
+                )
             write(frame[order], stream.faces if changed else None)
             if expected:
                 progress(count, expected)
     lost, place = shared.left_out, kind
     if args.permutation:
-        lost, place = [attribute.name for attribute in stream.attributes], f"{kind} with --permutation"
+        lost, place = (
+            [attribute.name for attribute in stream.attributes],
+            f"{kind} with --permutation",
+        )
     if lost:
         console.note(f"{args.input}: not written to {place}: {', '.join(lost)}")
     _note_unheard(args, console, metadata, kind)
@@ -308,20 +359,38 @@ def _decode_sequence(args: DecodeJob, console: Console, chunks: Iterator[bytes])
     if stream.run_starts:
         console.note(f"{args.input}: {describe_runs(stream.run_starts)}")
     counts = {"vertices": len(ahead[0][1]), "faces": header.faces}
-    console.note(f"{args.input} -> {output}: {counted(frames=count)} of {counted(**counts)}, {seconds:.2f} s")
+    console.note(
+        f"{args.input} -> {output}: {counted(frames=count)} of {counted(**counts)}, {seconds:.2f} s"
+    )
     sizes = {"input_bytes": size_of(args.input), "output_bytes": size_of(output)}
-    return {"input": args.input, "output": output, "frames": count, **counts, **sizes, "seconds": seconds}
+    return {
+        "input": args.input,
+        "output": output,
+        "frames": count,
+        **counts,
+        **sizes,
+        "seconds": seconds,
+    }
 
 
-def _opened(args: DecodeJob, console: Console, chunks: Iterator[bytes], start: int) -> SequenceStream:
-    return SequenceStream(chunks, console.note if args.tolerant else None, start, as_limits(args.limits))
+def _opened(
+    args: DecodeJob, console: Console, chunks: Iterator[bytes], start: int
+) -> SequenceStream:
+    return SequenceStream(
+        chunks, console.note if args.tolerant else None, start, as_limits(args.limits)
+    )
 
 
 def _is_of_one_frame(output: str, file_format: str | None) -> bool:
     from bsm.files.motion.folder import is_numbered
 
     kind = file_format or format_of_name(output)
-    return kind in WRITTEN_FORMATS and kind not in ONE_FILE and not is_numbered(output) and not Path(output).is_dir()
+    return (
+        kind in WRITTEN_FORMATS
+        and kind not in ONE_FILE
+        and not is_numbered(output)
+        and not Path(output).is_dir()
+    )
 
 
 def _sequence_output(args: DecodeJob) -> str:
@@ -347,12 +416,15 @@ def _ordered(faces: Faces, permutation: str | None) -> tuple[Order | slice, Face
     if permutation is None:
         return slice(None), faces
     # `reorder` takes meshes. Their numbers as coordinates make it tell where each row goes.
-    numbers = np.repeat(np.arange(faces.max() + 1.0)[:, None], 3, axis=1)  # as positions, which tell the order
+    # As positions, which tell the order.
+    numbers = np.repeat(np.arange(faces.max() + 1.0)[:, None], 3, axis=1)
     mesh = _reordered(TriangleMesh(numbers, faces), permutation)
     return mesh.positions[:, 0].astype(np.int64), mesh.faces
 
 
-def _decode_frame(args: DecodeJob, console: Console, chunks: Iterator[bytes], number: int, output: str) -> Facts:
+def _decode_frame(
+    args: DecodeJob, console: Console, chunks: Iterator[bytes], number: int, output: str
+) -> Facts:
     """Write one frame of a sequence as a mesh."""
     kind = str(args.format or format_of_name(output))
     refuse_to_overwrite(output, args.may_replace(output))
@@ -368,4 +440,6 @@ def _decode_frame(args: DecodeJob, console: Console, chunks: Iterator[bytes], nu
         mesh = _reordered(mesh, args.permutation)
     facts = {"frames": 1, "vertices": len(mesh.positions), "faces": len(mesh.faces)}
     file = written_mesh(mesh, kind, "mesh" if output == "-" else output)
-    return facts | _saved(args, console, output, kind, file, f"frame {number}, ", time.perf_counter() - begin)
+    return facts | _saved(
+        args, console, output, kind, file, f"frame {number}, ", time.perf_counter() - begin
+    )

@@ -35,11 +35,17 @@ def run(args: argparse.Namespace, console: Console) -> None:
     vertices, faces = len(sample.positions), len(sample.faces)
     # The arrays that a program would hold, since a sample has no file to compare with.
     plain = 12 * (vertices + faces)  # as float32 and int32
-    console.note(f"sample     a knotted rope: {vertices} vertices, {faces} faces, {plain} bytes as plain arrays")
+    console.note(
+        f"sample     a knotted rope: {vertices} vertices, {faces} faces, {plain} bytes as plain arrays"
+    )
     encoder, begin = Encoder(sample, encode_options(**keywords_of(args))), time.perf_counter()
     with console.progress("encoding") as progress:
         result = encoder.result(progress)
-    stream, error, encoding = b"".join(result.frames), result.comparison, time.perf_counter() - begin
+    stream, error, encoding = (
+        b"".join(result.frames),
+        result.comparison,
+        time.perf_counter() - begin,
+    )
     console.note(
         f"encoded    {len(stream)} bytes, {plain / len(stream):.1f} times smaller, "
         f"{8 * len(stream) / vertices:.2f} bits per vertex, {encoding:.2f} s"
@@ -58,17 +64,40 @@ def run(args: argparse.Namespace, console: Console) -> None:
     )
     write_output(stream_path, stream, overwrite=args.force, follow=False)
     with console.progress("drawing"):
-        titles = (f"original, {plain / 1000:,.0f} kB", f"decoded, {len(stream) / 1000:,.1f} kB", "error")
-        write_output(picture_path, _drawn(sample, positions, titles, console), overwrite=args.force, follow=False)
+        titles = (
+            f"original, {plain / 1000:,.0f} kB",
+            f"decoded, {len(stream) / 1000:,.1f} kB",
+            "error",
+        )
+        write_output(
+            picture_path,
+            _drawn(sample, positions, titles, console),
+            overwrite=args.force,
+            follow=False,
+        )
     written = [str(stream_path), str(picture_path)]
     console.note(f"written    {', '.join(written)}")
     if args.json:
-        sizes = {"vertices": vertices, "faces": faces, "bytes": len(stream), "bpv_total": 8 * len(stream) / vertices}
-        errors = {name: getattr(error, name) for name in ("nmsve_db", "theta_deg", "max_error_relative")}
-        print_json(sizes | {"encode_seconds": encoding, "decode_seconds": decoding} | errors | {"written": written})
+        sizes = {
+            "vertices": vertices,
+            "faces": faces,
+            "bytes": len(stream),
+            "bpv_total": 8 * len(stream) / vertices,
+        }
+        errors = {
+            name: getattr(error, name) for name in ("nmsve_db", "theta_deg", "max_error_relative")
+        }
+        print_json(
+            sizes
+            | {"encode_seconds": encoding, "decode_seconds": decoding}
+            | errors
+            | {"written": written}
+        )
 
 
-def _drawn(sample: TriangleMesh, positions: Positions, titles: tuple[str, ...], console: Console) -> bytes:
+def _drawn(
+    sample: TriangleMesh, positions: Positions, titles: tuple[str, ...], console: Console
+) -> bytes:
     """A picture of the sample, of its decoded mesh, and of the error."""
     errors = Panel(sample, titles[-1], np.linalg.norm(positions - sample.positions, axis=1))
     meshes = (Panel(sample, titles[0]), Panel(replace(sample, positions=positions), titles[1]))

@@ -13,7 +13,14 @@ import numpy as np
 
 from bsm.bitstream.errors import OptionError, counted
 from bsm.codec.geometry.metrics import mean_edge_length
-from bsm.commands.flags import add_flags, add_inputs, adder, asked, options_of, refuse_two_on_one_pipe
+from bsm.commands.flags import (
+    add_flags,
+    add_inputs,
+    adder,
+    asked,
+    options_of,
+    refuse_two_on_one_pipe,
+)
 from bsm.encoding.options import denoise_options
 from bsm.files import mesh as meshes
 from bsm.files import table
@@ -40,7 +47,11 @@ BEGINNINGS = {
     "bends": "surface of fewest bends",
     "none": "guided normals",
 }
-FINISHES = {"learnt": "learnt normals", "flat": "planes", "flat, learnt": "learnt normals and planes"}
+FINISHES = {
+    "learnt": "learnt normals",
+    "flat": "planes",
+    "flat, learnt": "learnt normals and planes",
+}
 STREAM = "bsm"
 
 
@@ -64,8 +75,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "output file, or folder for several inputs (default: IN with .denoised before its suffix). A stream (.bsm) is "
         "encoded near-lossless",
     )
-    add("--format", "", "format of the input and of a piped output", choices=(*table.MESH_FORMATS, "npy"))
-    goal = "aim of the automatic mode: normals close to the true ones (shading), or vertices (shape)"
+    add(
+        "--format",
+        "",
+        "format of the input and of a piped output",
+        choices=(*table.MESH_FORMATS, "npy"),
+    )
+    goal = (
+        "aim of the automatic mode: normals close to the true ones (shading), or vertices (shape)"
+    )
     add("--for", "", goal, dest="goal", choices=GOALS, default=GOALS[0])
     add_flags(parser, "denoise")
     ways = parser.add_argument_group(
@@ -109,7 +127,9 @@ def _suffix(name: str) -> str:
     return f".{format_of_name(name) or usual}"
 
 
-def _denoise_mesh(args: DenoiseJob, console: Console, options: "DenoiseOptions | None") -> dict[str, Any]:
+def _denoise_mesh(
+    args: DenoiseJob, console: Console, options: "DenoiseOptions | None"
+) -> dict[str, Any]:
     kind = _kind_of_output(args)
     # Imported here, since only some runs need them, and the codec takes time to load.
     from bsm.api import encode, look
@@ -121,15 +141,21 @@ def _denoise_mesh(args: DenoiseJob, console: Console, options: "DenoiseOptions |
     begin = time.perf_counter()
     with console.progress("denoising", until=0.95) as progress:
         ways: dict[str, Any] = {"goal": args.goal, "strength": args.strength, "force": args.force}
-        denoiser = FrameDenoiser(mesh.positions, mesh.faces, options, **ways, progress=progress.stage)
+        denoiser = FrameDenoiser(
+            mesh.positions, mesh.faces, options, **ways, progress=progress.stage
+        )
         (positions,) = denoiser([mesh.positions])
     unit = unit_of(mesh.metadata)
-    for line in _found(denoiser.choice, args.goal, mean_edge_length(mesh.positions, mesh.faces), unit):
+    for line in _found(
+        denoiser.choice, args.goal, mean_edge_length(mesh.positions, mesh.faces), unit
+    ):
         console.note(line)
     words, moves = _movement(np.linalg.norm(positions - mesh.positions, axis=1), unit)
     # If no vertex has moved, the file is copied byte by byte. To write it anew would lose what the reader does not
     # keep.
-    same = not moves["vertices"] and kind == format_of_name(args.input) and Path(args.input).is_file()
+    same = (
+        not moves["vertices"] and kind == format_of_name(args.input) and Path(args.input).is_file()
+    )
     if same:
         words += "; the file is copied"
     else:
@@ -144,7 +170,9 @@ def _denoise_mesh(args: DenoiseJob, console: Console, options: "DenoiseOptions |
     more: dict[str, Any] = {"moved": moves}
     if args.look:
         distance = look(mesh, moved)
-        console.note(f"look       {distance.distance:.2g} from the input (at 1, both look the same)")
+        console.note(
+            f"look       {distance.distance:.2g} from the input (at 1, both look the same)"
+        )
         more["look"] = asdict(distance)
     if same:
         file = meshes.copied(args.input, mesh, args.output)
@@ -152,11 +180,18 @@ def _denoise_mesh(args: DenoiseJob, console: Console, options: "DenoiseOptions |
         file = Written(encode(moved, preset="near-lossless"))
     else:
         file = meshes.written_mesh(moved, kind, args.output)
-    left_out = meshes.save_written(args.output, file, overwrite_beside=args.force, **args.placing(args.output))
+    left_out = meshes.save_written(
+        args.output, file, overwrite_beside=args.force, **args.placing(args.output)
+    )
     if left_out or stale:
         console.note(f"{args.input}: left out: {', '.join((*stale, *left_out))}")
-    console.note(f"{args.input}: {counted(vertices=len(mesh.positions))} -> {args.output}, {seconds:.2f} s")
-    return {**_result((len(positions), len(mesh.faces), 1), seconds, denoiser.choice, options), **more}
+    console.note(
+        f"{args.input}: {counted(vertices=len(mesh.positions))} -> {args.output}, {seconds:.2f} s"
+    )
+    return {
+        **_result((len(positions), len(mesh.faces), 1), seconds, denoiser.choice, options),
+        **more,
+    }
 
 
 def _movement(moves: Any, unit: str) -> tuple[str, Facts]:
@@ -166,7 +201,9 @@ def _movement(moves: Any, unit: str) -> tuple[str, Facts]:
     if not touched:
         return "no vertex", facts
     facts["mean"] = mean = float(moves[moves > 0.0].mean())
-    who = "all vertices" if touched == len(moves) else f"{touched} of {counted(vertices=len(moves))}"
+    who = (
+        "all vertices" if touched == len(moves) else f"{touched} of {counted(vertices=len(moves))}"
+    )
     return f"{who}, by {length(mean, unit)} on average, {length(farthest, unit)} at most", facts
 
 
@@ -179,7 +216,9 @@ def _kind_of_output(args: DenoiseJob) -> str:
     if kind not in (*table.WRITTEN_FORMATS, STREAM):
         # A pipe has no name that could tell a format.
         if args.output == "-":
-            raise OptionError(f"a pipe has no suffix; give --format: {', '.join(table.WRITTEN_FORMATS)}")
+            raise OptionError(
+                f"a pipe has no suffix; give --format: {', '.join(table.WRITTEN_FORMATS)}"
+            )
         raise meshes.unknown_suffix(args.output, STREAM)
     refuse_to_overwrite(args.output, args.may_replace(args.output))
     return str(kind)
@@ -197,9 +236,13 @@ def _denoise_sequence(
     # The denoiser learns from the first frame how noisy the sequence is, before it sees the others.
     first = next(source.frames)
     begin = time.perf_counter()
-    denoiser = FrameDenoiser(first, source.faces, options, goal=args.goal, strength=args.strength, force=args.force)
+    denoiser = FrameDenoiser(
+        first, source.faces, options, goal=args.goal, strength=args.strength, force=args.force
+    )
     count = 0
-    writer = sequence_writer(args.output, kind, source.faces, source.count, **args.placing(args.output))
+    writer = sequence_writer(
+        args.output, kind, source.faces, source.count, **args.placing(args.output)
+    )
     with writer as write, console.progress("denoising") as progress:
         for frame in denoiser(chain([first], source.frames)):
             write(frame)
@@ -208,7 +251,9 @@ def _denoise_sequence(
                 progress(count, source.count)
             if count == 1:
                 # The choice is made while the first frame is denoised, so it can be told only now.
-                for line in _found(denoiser.choice, args.goal, mean_edge_length(first, source.faces)):
+                for line in _found(
+                    denoiser.choice, args.goal, mean_edge_length(first, source.faces)
+                ):
                     console.note(line)
     seconds = time.perf_counter() - begin
     console.note(
@@ -219,13 +264,22 @@ def _denoise_sequence(
 
 
 def _result(
-    shape: tuple[int, int, int], seconds: float, choice: "AutomaticChoice | None", options: "DenoiseOptions | None"
+    shape: tuple[int, int, int],
+    seconds: float,
+    choice: "AutomaticChoice | None",
+    options: "DenoiseOptions | None",
 ) -> dict[str, Any]:
     chosen = {"automatic": choice and asdict(choice), "options": options and asdict(options)}
-    return {**dict(zip(("vertices", "faces", "frames"), shape, strict=True)), "seconds": seconds, **chosen}
+    return {
+        **dict(zip(("vertices", "faces", "frames"), shape, strict=True)),
+        "seconds": seconds,
+        **chosen,
+    }
 
 
-def _found(choice: "AutomaticChoice | None", goal: str, edge: float, unit: str = "") -> Iterator[str]:
+def _found(
+    choice: "AutomaticChoice | None", goal: str, edge: float, unit: str = ""
+) -> Iterator[str]:
     """Yield lines about the noise and the chosen method; none if the options chose the method."""
     if choice is None:
         return

@@ -8,7 +8,14 @@ from dataclasses import replace
 from pathlib import Path
 
 from bsm.bitstream.errors import OptionError, counted
-from bsm.commands.flags import add_encode_flags, add_inputs, adder, asked, keywords_of, refuse_two_on_one_pipe
+from bsm.commands.flags import (
+    add_encode_flags,
+    add_inputs,
+    adder,
+    asked,
+    keywords_of,
+    refuse_two_on_one_pipe,
+)
 from bsm.files.images import ImageRule
 from bsm.files.motion.caches import CACHES
 from bsm.files.motion.folder import common_name, look_like_frames
@@ -35,7 +42,13 @@ _OTHERS = (*SEQUENCE_FORMATS, "gltf", "drc", "3mf", "dae", "fbx", "abc", "json",
 """Suffixes that are not names of streams."""
 
 
-_MEANT = {"units": "unit", "scale_unit": "unit", "up_axis": "up", "upaxis": "up", "fps": "frame_rate"}
+_MEANT = {
+    "units": "unit",
+    "scale_unit": "unit",
+    "up_axis": "up",
+    "upaxis": "up",
+    "fps": "frame_rate",
+}
 """Names of metadata that readers would not find, and the names that have their meaning."""
 
 
@@ -62,9 +75,13 @@ def run(args: argparse.Namespace, console: Console) -> int:
     # The option of other programs chooses the format of the output. Here it is that of the input.
     if args.format in GLTF and format_of_name(args.inputs[0]) not in (None, "glb"):
         first = shlex.quote(args.inputs[0])
-        raise OptionError(f"--format is the format of the input; for a scene, run: bsm glb {first} -o OUT.glb")
+        raise OptionError(
+            f"--format is the format of the input; for a scene, run: bsm glb {first} -o OUT.glb"
+        )
     if piped and args.format not in (None, "npy"):
-        raise OptionError(f"--frames takes npy arrays; it cannot be combined with --format {args.format}")
+        raise OptionError(
+            f"--frames takes npy arrays; it cannot be combined with --format {args.format}"
+        )
     jobs, members = _planned(args, console)
     refuse_two_on_one_pipe(args, jobs[0].output)
     many, options = asked(Batch, args), keywords_of(args)
@@ -75,12 +92,22 @@ def run(args: argparse.Namespace, console: Console) -> int:
         if not name or not sign:
             raise OptionError(f"--meta takes NAME=TEXT, not {name!r}")
         if name.lower() in _MEANT:
-            raise OptionError(f"--meta {name}: programs look for it as {_MEANT[name.lower()]}={value}")
+            raise OptionError(
+                f"--meta {name}: programs look for it as {_MEANT[name.lower()]}={value}"
+            )
         metadata[name] = value
-    more = {"output": "", "metadata": metadata, "options": options, "threads": threads, "members": members}
+    more = {
+        "output": "",
+        "metadata": metadata,
+        "options": options,
+        "threads": threads,
+        "members": members,
+    }
     # Images in files need a folder that they can be written to.
     if args.images == "link" and any(job.output == "-" or is_url(job.output) for job in jobs):
-        raise OptionError("--images link writes files beside streams; it takes neither a pipe nor a URL")
+        raise OptionError(
+            "--images link writes files beside streams; it takes neither a pipe nor a URL"
+        )
     if args.images not in (None, "keep", "none", "link"):
         ImageRule.parse(args.images)
         # Decoders of images are a usual way into a process. Bytes of strangers never reach Pillow.
@@ -90,7 +117,9 @@ def run(args: argparse.Namespace, console: Console) -> int:
     job = asked(EncodeJob, args, **more)
     others = (path for folder in args.inputs for path in Path(folder).rglob("*") if args.recursive)
     # Without any other file in the folders there can be no shared image, and the meshes need not be read twice.
-    if args.images is None and any(path.suffix.lower() not in MESH_SUFFIXES and path.is_file() for path in others):
+    if args.images is None and any(
+        path.suffix.lower() not in MESH_SUFFIXES and path.is_file() for path in others
+    ):
         job = replace(job, shared=shared_images(many, job, console, jobs))
     if job.shared:
         once = f"{counted(images=len(job.shared))} of several meshes: once in the folder images"
@@ -138,10 +167,16 @@ def _refuse_other_formats(inputs: Sequence[str], output: str | None) -> None:
         return
     stream, scene = (shlex.quote(str(Path(output).with_suffix(end))) for end in (".bsm", ".glb"))
     names = shlex.join(inputs if len(inputs) < 4 else [inputs[0], "..."])
-    moving = len(inputs) > 1 or Path(inputs[0]).is_dir() or Path(inputs[0]).suffix[1:].lower() in (*CACHES, "npz")
+    moving = (
+        len(inputs) > 1
+        or Path(inputs[0]).is_dir()
+        or Path(inputs[0]).suffix[1:].lower() in (*CACHES, "npz")
+    )
     advice = f"bsm encode {names} -o {stream}"
     if suffix in GLTF:
-        advice = f"{advice}; bsm glb {stream} -o {scene}" if moving else f"bsm glb {names} -o {scene}"
+        advice = (
+            f"{advice}; bsm glb {stream} -o {scene}" if moving else f"bsm glb {names} -o {scene}"
+        )
     elif suffix in (SEQUENCE_FORMATS if moving else WRITTEN_FORMATS):
         advice += f"; then bsm decode {stream} -o {shlex.quote(output)}"
     raise OptionError(f"{output}: encode writes streams, .bsm. Run: {advice}")

@@ -36,7 +36,9 @@ class Flag:
         return _TYPES.get(self.kind, str)(text)
 
     def add(self, group: argparse._ActionsContainer) -> None:
-        how: dict[str, Any] = {**_ACTIONS.get(self.kind, {"type": _TYPES.get(self.kind)} if self.value else {})}
+        how: dict[str, Any] = {
+            **_ACTIONS.get(self.kind, {"type": _TYPES.get(self.kind)} if self.value else {})
+        }
         how |= {"choices": self.value.split("|")} if "|" in self.value else {}
         if self.default == "required":
             how |= {"required": True}
@@ -54,7 +56,9 @@ def adder(parser: argparse._ActionsContainer) -> Callable[..., argparse.Action]:
 
     def add(names: str, value: str, about: str, **more: Any) -> argparse.Action:
         # A switch has no value, and argparse refuses a metavar for it.
-        plain = {"metavar": value} if value else {} if "choices" in more else {"action": "store_true"}
+        plain = (
+            {"metavar": value} if value else {} if "choices" in more else {"action": "store_true"}
+        )
         return parser.add_argument(*names.split(), help=about, **{**plain, **more})
 
     return add
@@ -98,7 +102,9 @@ def numbers(count: int) -> Callable[[str], tuple[float, ...]]:
             values = ()
         # float() reads "nan" and "inf", which no coordinate may be.
         if len(values) != count or not all(map(math.isfinite, values)):
-            raise argparse.ArgumentTypeError(f"{count} numbers with commas between them are expected, not {text!r}")
+            raise argparse.ArgumentTypeError(
+                f"{count} numbers with commas between them are expected, not {text!r}"
+            )
         return values
 
     return parsed
@@ -122,7 +128,9 @@ def number_of_blocks(text: str) -> int:
         )
     number = whole_number(text)
     if number < 1:
-        raise argparse.ArgumentTypeError(f"at least one block is decoded: give 1 or more, not {number}")
+        raise argparse.ArgumentTypeError(
+            f"at least one block is decoded: give 1 or more, not {number}"
+        )
     return number
 
 
@@ -144,20 +152,28 @@ def named_setting(text: str) -> tuple[str, Any]:
     settings = {setting.field: setting for setting in FLAGS["settings"]}
     name = name.strip().replace("-", "_")
     if (setting := settings.get(name)) is None:
-        raise argparse.ArgumentTypeError(f"unknown setting {name!r}{suggestion(name, settings)}; see --help-all")
+        raise argparse.ArgumentTypeError(
+            f"unknown setting {name!r}{suggestion(name, settings)}; see --help-all"
+        )
     value, choices = value.strip(), setting.value.split("|")
     if len(choices) > 1 and value not in choices:
-        wrong = f"unknown value {value!r} of {name}{suggestion(value, choices)} ({', '.join(choices)})"
+        wrong = (
+            f"unknown value {value!r} of {name}{suggestion(value, choices)} ({', '.join(choices)})"
+        )
         raise argparse.ArgumentTypeError(wrong)
     try:
         return name, setting.parse(value)
     except (ValueError, argparse.ArgumentTypeError):
-        raise argparse.ArgumentTypeError(f"{name}={setting.value} is expected, not {text!r}") from None
+        raise argparse.ArgumentTypeError(
+            f"{name}={setting.value} is expected, not {text!r}"
+        ) from None
 
 
 PROMISES = "The encoder checks the decoded result before it writes a file. All constraints apply together.\n\n"
 PROMISES += "preset         look  vertex  (look distance; largest error, relative to the diagonal of its component)\n"
-PROMISES += "\n".join("{:14} {:5} {:7} {}".format(row.name, *row.bounds, row.use) for row in PRESET_ROWS)
+PROMISES += "\n".join(
+    "{:14} {:5} {:7} {}".format(row.name, *row.bounds, row.use) for row in PRESET_ROWS
+)
 PRESETS = tuple(row.name for row in PRESET_ROWS)
 
 
@@ -172,7 +188,9 @@ def named_quality(text: str) -> tuple[str, str]:
     # From the right, since names of attributes may hold the sign.
     name, separator, quality = text.rpartition("=")
     if not (name and separator):
-        raise argparse.ArgumentTypeError(f"NAME=QUALITY is expected, such as texcoord=12bits, not {text!r}")
+        raise argparse.ArgumentTypeError(
+            f"NAME=QUALITY is expected, such as texcoord=12bits, not {text!r}"
+        )
     return name, quality
 
 
@@ -203,7 +221,10 @@ _ACTIONS: dict[str, dict[str, Any]] = {
 }
 _ROWS = csv.DictReader(Path(__file__).with_name("options.csv").read_text("utf-8").splitlines())
 _FILLED = accumulate(_ROWS, lambda before, row: {**row, "group": row["group"] or before["group"]})
-FLAGS = {group: list(rows) for group, rows in groupby((Flag(**row) for row in _FILLED), lambda flag: flag.group)}
+FLAGS = {
+    group: list(rows)
+    for group, rows in groupby((Flag(**row) for row in _FILLED), lambda flag: flag.group)
+}
 """The rows of options.csv, by group; those of the group settings are given by `--set NAME=VALUE`."""
 
 
@@ -225,7 +246,15 @@ def add_encode_flags(parser: argparse.ArgumentParser) -> None:
     add, unset = adder(group), {"default": argparse.SUPPRESS}
     repeated = {"action": "append", **unset}
     # Both are in use. Two names for one keyword, so that they cannot contradict each other.
-    add("--quick", "", "same as --effort quick", dest="effort", action="store_const", const="quick", **unset)
+    add(
+        "--quick",
+        "",
+        "same as --effort quick",
+        dest="effort",
+        action="store_const",
+        const="quick",
+        **unset,
+    )
     quality = "quality of an attribute: exact, 12bits, 0.01 (a bound), 1%%, 2deg, recompute or none. The name * means "
     quality += "all others; *=none also drops materials and images. May be repeated"
     add("--attribute", "NAME=QUALITY", quality, dest="attributes", type=named_quality, **repeated)
@@ -241,7 +270,12 @@ def add_encode_flags(parser: argparse.ArgumentParser) -> None:
     add_flags(group, "sequences")
     add = adder(group)
     add("--animation", "NAME", "encode this animation of a GLB or glTF, by name or number (0)")
-    add("--mesh", "FILE", "mesh of a PC2 or MDD (default: the file of the same name beside it)", dest="cache_mesh")
+    add(
+        "--mesh",
+        "FILE",
+        "mesh of a PC2 or MDD (default: the file of the same name beside it)",
+        dest="cache_mesh",
+    )
     about = "encode frames A to B - 1 only, counted from 0. Without A:B, the pipe contains frames, as with --format npy"
     add("--frames", "A:B", about, nargs="?", const="", type=frames_or_input)
 
@@ -249,7 +283,10 @@ def add_encode_flags(parser: argparse.ArgumentParser) -> None:
 def add_preset_flags(parser: argparse.ArgumentParser) -> None:
     group = parser.add_argument_group("quality and size", PROMISES)
     group.add_argument(
-        "--preset", choices=PRESETS, default=argparse.SUPPRESS, help=f"a promise of the table (default: {DEFAULT})"
+        "--preset",
+        choices=PRESETS,
+        default=argparse.SUPPRESS,
+        help=f"a promise of the table (default: {DEFAULT})",
     )
     add_flags(group, "bounds")
     add_flags(group.add_mutually_exclusive_group(), "targets")
@@ -294,5 +331,6 @@ def refuse_two_on_one_pipe(args: argparse.Namespace, output: str) -> None:
 
 def asked(kind: type[_Asked], args: argparse.Namespace, **more: Any) -> _Asked:
     """Return the flags of a command line as a dataclass with fields of the same names."""
-    values = {field.name: getattr(args, field.name) for field in fields(kind) if hasattr(args, field.name)}  # type: ignore[arg-type]
+    names = [field.name for field in fields(kind)]  # type: ignore[arg-type]
+    values = {name: getattr(args, name) for name in names if hasattr(args, name)}
     return kind(**{**values, **more})

@@ -22,7 +22,8 @@ from bsm.gltf.document import Document, read_document
 from bsm.gltf.write import moving_scene
 from bsm.ground.console import Console, print_json
 
-MANY = 16  # primitives from which on a page waits longer for decoding than for the bytes that it saves
+# Primitives from which on a page waits longer for decoding than for the bytes that it saves.
+MANY = 16
 _NO_PROMISE, _USUAL = ("none", "paper"), "grid14"
 VISIBLE = 0.01  # of the diagonal of a component: an error that is worth a note
 
@@ -61,7 +62,9 @@ def run(args: argparse.Namespace, console: Console) -> None:
     refuse_collisions((args.input, *document.files), filter(None, (args.output, str(beside or ""))))
     with console.progress("encoding") as progress:
         name = beside.name if beside else None
-        result = compress(document, options, rule, name, progress, jobs=args.jobs, one_grid=args.one_grid)
+        result = compress(
+            document, options, rule, name, progress, jobs=args.jobs, one_grid=args.one_grid
+        )
     # A scene that came back as it was would look like success.
     if not (result.coded or received or rule or args.force):
         why = "; ".join(result.unchanged) or "the scene has no primitives"
@@ -73,15 +76,32 @@ def run(args: argparse.Namespace, console: Console) -> None:
     words = f"{result.coded} of {count} primitives coded, {before} -> {len(result.data)} bytes; largest vertex error "
     words += f"{result.error[0]:.3g}, at most {100 * result.error[1]:.3g} % of the diagonal of its component"
     notes = list(_notes_on(result, document, before, shrinks=rule is not None))
-    more = {"primitives": count, "coded": result.coded, "unchanged": result.unchanged, "notes": notes}
+    more = {
+        "primitives": count,
+        "coded": result.coded,
+        "unchanged": result.unchanged,
+        "notes": notes,
+    }
     more |= {"max_error": result.error[0], "max_error_of_component": result.error[1]}
-    _finish(args, console, words, before, result.data, more | {"images": [image.facts() for image in result.images]})
+    _finish(
+        args,
+        console,
+        words,
+        before,
+        result.data,
+        more | {"images": [image.facts() for image in result.images]},
+    )
     for note in notes:
         console.note(f"{args.input}: {note}")
 
 
 def _finish(
-    args: argparse.Namespace, console: Console, words: str, received: int, data: bytes, more: Mapping[str, Any]
+    args: argparse.Namespace,
+    console: Console,
+    words: str,
+    received: int,
+    data: bytes,
+    more: Mapping[str, Any],
 ) -> None:
     console.note(f"{args.input} -> {args.output}: {words}")
     if args.json:
@@ -90,7 +110,14 @@ def _finish(
 
 
 def _wrap_sequence(args: argparse.Namespace, console: Console) -> None:
-    changes = (args.fallback, args.images, args.quick is not None, args.attribute, args.one_grid, args.jobs != 1)
+    changes = (
+        args.fallback,
+        args.images,
+        args.quick is not None,
+        args.attribute,
+        args.one_grid,
+        args.jobs != 1,
+    )
     if any(changes) or args.preset != _USUAL:
         raise OptionError("a stream is wrapped unchanged; only -o, -f, -q and --json apply")
     stream = as_input(args.input).read_all()
@@ -100,17 +127,25 @@ def _wrap_sequence(args: argparse.Namespace, console: Console) -> None:
     _finish(args, console, words, len(stream), scene, {"notes": []})
 
 
-def _notes_on(result: Compressed, document: Document, before: int, *, shrinks: bool) -> Iterator[str]:
+def _notes_on(
+    result: Compressed, document: Document, before: int, *, shrinks: bool
+) -> Iterator[str]:
     """Say what else is to be known of a result; `before`: the bytes of the input, `shrinks`: images become smaller."""
     if len(result.data) > before:
-        because = "".join(f", as {name} had made that small: keep it" for name in document.compressed[:1])
+        because = "".join(
+            f", as {name} had made that small: keep it" for name in document.compressed[:1]
+        )
         yield f"the result is larger than the input{because}"
     if result.error[1] > VISIBLE:
         yield "small components are coarse; use --preset fine or near-lossless"
     yield from changed(list(result.images))
-    yield from (f"{note}{f' ({count} times)' if count > 1 else ''}" for note, count in result.notes.items())
+    yield from (
+        f"{note}{f' ({count} times)' if count > 1 else ''}" for note, count in result.notes.items()
+    )
     # Often most of the bytes are images, and someone who compares sizes should know it.
-    images = sum(len(document.image(number)[1] or b"") for number in range(len(document.items("images"))))
+    images = sum(
+        len(document.image(number)[1] or b"") for number in range(len(document.items("images")))
+    )
     if not shrinks and 2 * images > len(result.data):
         yield f"{images} bytes are unchanged images; --images webp:85 makes them smaller"
     yield from (f"{count} unchanged: {reason}" for reason, count in result.unchanged.items())
@@ -147,7 +182,11 @@ def _qualities(args: argparse.Namespace) -> dict[str, str]:
     qualities = dict(entry.partition("=")[::2] for entry in args.attribute)
     for name, quality in qualities.items():
         if not name or not quality or quality == "recompute":
-            raise OptionError(f"--attribute {name}={quality}: give NAME=QUALITY; recompute is not for scenes")
-        if quality == "none" and not name.startswith(("NORMAL", "TANGENT", "TEXCOORD_", "COLOR_", "_")):
+            raise OptionError(
+                f"--attribute {name}={quality}: give NAME=QUALITY; recompute is not for scenes"
+            )
+        if quality == "none" and not name.startswith(
+            ("NORMAL", "TANGENT", "TEXCOORD_", "COLOR_", "_")
+        ):
             raise OptionError(f"--attribute {name}=none: a scene needs {name}")
     return qualities

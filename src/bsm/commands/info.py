@@ -28,7 +28,9 @@ class InfoJob(Task):
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    add_inputs(parser, "stream, scene of glTF with streams, folder of tiles, or - for standard input")
+    add_inputs(
+        parser, "stream, scene of glTF with streams, folder of tiles, or - for standard input"
+    )
     add_flags(parser, "limits")
 
 
@@ -40,17 +42,29 @@ def run(args: argparse.Namespace, console: Console) -> int:
 def info_of_one(args: InfoJob, console: Console) -> Facts:
     limits = as_limits(args.limits)
     if is_tiles(args.input):
-        return {"input": args.input, **by_name("bsm.tiles.shards", "open_tiles")(args.input).manifest}
+        return {
+            "input": args.input,
+            **by_name("bsm.tiles.shards", "open_tiles")(args.input).manifest,
+        }
     # A scene may hold many streams, and each is described on its own.
     if is_scene(args.input):
         document = by_name("bsm.gltf.document", "read_document")(args.input, limits)
-        streams = {n: summarize_stream(inspect_stream(iter([document.view(n)]), limits)) for n in document.streams}
-        return {"input": args.input, "primitives": len(list(document.primitives())), "streams": streams}
+        streams = {
+            n: summarize_stream(inspect_stream(iter([document.view(n)]), limits))
+            for n in document.streams
+        }
+        return {
+            "input": args.input,
+            "primitives": len(list(document.primitives())),
+            "streams": streams,
+        }
     if Path(args.input).is_dir():
         raise OptionError(_worded_folder(args.input))
     refuse_mesh(args.input)
     info = inspect_stream(read_chunks(args.input), limits)
-    images = {image.name: image.fault or "is there" for image in linked_images(info.metadata, args.input)}
+    images = {
+        image.name: image.fault or "is there" for image in linked_images(info.metadata, args.input)
+    }
     return {"input": args.input, **summarize_stream(info), "linked_images": images}
 
 
@@ -67,11 +81,18 @@ def _worded(summary: Facts) -> str:
     if "shards" in summary:
         return "\n".join(_tile_lines(summary))
     if "streams" in summary:
-        head = f"scene of {counted(primitives=summary['primitives'], streams=len(summary['streams']))}"
+        head = (
+            f"scene of {counted(primitives=summary['primitives'], streams=len(summary['streams']))}"
+        )
         if not summary["streams"]:
             head = f"scene of {counted(primitives=summary['primitives'])}, not compressed: "
             head += f"bsm glb {shlex.quote(summary['input'])} -o OUT.glb compresses it"
-        return "\n\n".join([head, *(f"bufferView {n}: {_worded(stream)}" for n, stream in summary["streams"].items())])
+        return "\n\n".join(
+            [
+                head,
+                *(f"bufferView {n}: {_worded(stream)}" for n, stream in summary["streams"].items()),
+            ]
+        )
     total = summary["bytes"]["total"]
     shares = list[str]()
     # Bytes of all parts add up to the file, framing included, so that nothing stays unexplained.
@@ -81,10 +102,15 @@ def _worded(summary: Facts) -> str:
             continue
         shares.append(_share_line("  positions", size, total))
         kinds = {kind: count for kind, count in summary["positions"].items() if count}
-        shares += [_share_line(f"    {kind.replace('_', ' ')}", count, total) for kind, count in kinds.items()]
+        shares += [
+            _share_line(f"    {kind.replace('_', ' ')}", count, total)
+            for kind, count in kinds.items()
+        ]
     rates = []
     if not summary["frames"]:
-        rates = [f"bits per vertex: {summary['bpv_total']:.3f} in total, {summary['bpv_geometry']:.3f} for positions"]
+        rates = [
+            f"bits per vertex: {summary['bpv_total']:.3f} in total, {summary['bpv_geometry']:.3f} for positions"
+        ]
         packed, *_ = summary["header"]["paper"] or (0,)
         if packed:
             rates[0] += f", bpv_paper {summary['bpv_paper']:.3f} by the paper's formula"
@@ -93,7 +119,9 @@ def _worded(summary: Facts) -> str:
     entries = [printable(f"  {name}: {value}") for name, value in texts.items()]
     header, coefficients = summary["header"], summary["coefficients"] or [0]
     if header["grid"]:
-        positions = f"positions on a grid of {' x '.join(str(largest + 1) for largest in header['grid'])}"
+        positions = (
+            f"positions on a grid of {' x '.join(str(largest + 1) for largest in header['grid'])}"
+        )
     else:
         rows = "cells" if header["base"] else "vertices"
         positions = f"{summary['blocks']} blocks of {summary['block_size']} {rows}, "
@@ -112,7 +140,10 @@ def _worded(summary: Facts) -> str:
     lines += ["bytes:", *shares, *rates, *map(_attribute_line, summary["attributes"])]
     if entries:
         lines += ["metadata:", *entries]
-    lines += [printable(f"the image {name} {state}") for name, state in summary.get("linked_images", {}).items()]
+    lines += [
+        printable(f"the image {name} {state}")
+        for name, state in summary.get("linked_images", {}).items()
+    ]
     return "\n".join(lines)
 
 
@@ -158,7 +189,11 @@ def _sequence_lines(summary: dict[str, Any]) -> list[str]:
     gops, header = summary["gops"], summary["header"]
     if not header["sequence"]:
         return []
-    rate = f", {summary['metadata']['frame_rate']:g} per second" if "frame_rate" in summary["metadata"] else ""
+    rate = (
+        f", {summary['metadata']['frame_rate']:g} per second"
+        if "frame_rate" in summary["metadata"]
+        else ""
+    )
     sizes = [gop["bytes"] for gop in gops] or [0]
     return [
         f"{summary['frames']} frames{rate}, in {len(gops)} {'GOP' if len(gops) == 1 else 'GOPs'} "
@@ -173,5 +208,7 @@ def _run_lines(runs: list[dict[str, Any]]) -> list[str]:
     for number, run in enumerate(runs[:MOST_LISTED] if lines else ()):
         counts = counted(vertices=run["vertices"], faces=run["faces"])
         again = "" if run["mesh"] == number else f", the mesh of run {run['mesh']} again"
-        lines.append(f"run {number}: {run['frames']} frames from {run['first']} on, {counts}{again}")
+        lines.append(
+            f"run {number}: {run['frames']} frames from {run['first']} on, {counts}{again}"
+        )
     return lines

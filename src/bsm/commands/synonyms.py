@@ -22,27 +22,43 @@ def advice_on_command(words: Sequence[str]) -> str:
     if advice:
         is_sentence = advice[0].isupper()
         return f". {advice}" if is_sentence else f"; it is: bsm {advice}"
-    file_name = next((name for name in words if Path(name).suffix.lower() in (*MESH_SUFFIXES, ".bsm")), None)
+    file_name = next(
+        (name for name in words if Path(name).suffix.lower() in (*MESH_SUFFIXES, ".bsm")), None
+    )
     if file_name is None or not (word.startswith("-") or file_name == word):
         return ""
     stream = Path(file_name).suffix.lower() == ".bsm"
-    return f"; a command comes first: bsm {'decode' if stream else 'encode'} {shlex.quote(file_name)}"
+    return (
+        f"; a command comes first: bsm {'decode' if stream else 'encode'} {shlex.quote(file_name)}"
+    )
 
 
 def refuse_misplaced(command: str, inputs: Sequence[str], *, recursive: bool) -> None:
     """Raise an error that says what to type, if a word is an output, a unit or a value instead of an input."""
     # A folder is a sequence to encode, but decode would find no stream in it.
-    if command == "decode" and not recursive and (folder := next(filter(os.path.isdir, inputs), None)):
+    if (
+        command == "decode"
+        and not recursive
+        and (folder := next(filter(os.path.isdir, inputs), None))
+    ):
         command = f"bsm decode -r {shlex.quote(folder)} -o OUT/"
-        raise OptionError(f"{folder} is a folder. To decode each stream in it, run: {command}; tiles: bsm untile")
-    missing = [name for name in inputs if "://" not in name and name != "-" and not os.path.exists(name)]
+        raise OptionError(
+            f"{folder} is a folder. To decode each stream in it, run: {command}; tiles: bsm untile"
+        )
+    missing = [
+        name for name in inputs if "://" not in name and name != "-" and not os.path.exists(name)
+    ]
     for name in missing:
         if _UNIT.fullmatch(name) and not os.path.dirname(name):
             example = "20" if name.lower().endswith(("b", "bytes")) and name != "dB" else "0.1"
-            raise OptionError(f"{name}: no such file; if it is a unit, write it without a space: {example}{name}")
+            raise OptionError(
+                f"{name}: no such file; if it is a unit, write it without a space: {example}{name}"
+            )
     if len(inputs) != 2 or inputs[0] in missing:
         return
     outputs = {"encode": (".bsm",), "decode": tuple(f".{kind}" for kind in MESH_FORMATS)}
     if inputs[1] in missing or Path(inputs[1]).suffix.lower() in outputs.get(command, ()):
         first, output = map(shlex.quote, inputs)
-        raise OptionError(f"{inputs[1]}: the output is named with -o. Run: bsm {command} {first} -o {output}")
+        raise OptionError(
+            f"{inputs[1]}: the output is named with -o. Run: bsm {command} {first} -o {output}"
+        )

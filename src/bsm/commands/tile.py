@@ -30,7 +30,13 @@ from bsm.tiles.work import NOTE, held, refuse_others, remove_made, there
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add = adder(parser)
     add_flags(parser, "tile", "inputs", "many inputs")
-    add("--triangles", "N", "largest number of triangles of a tile (default 2^19)", type=within(64), default=1 << 19)
+    add(
+        "--triangles",
+        "N",
+        "largest number of triangles of a tile (default 2^19)",
+        type=within(64),
+        default=1 << 19,
+    )
     more = "write tileset.json (3D Tiles) and a GLB for each tile instead of shards. "
     add("--tileset", "", more + CONTENT_HELP, nargs="?", choices=CONTENTS, const=CONTENTS[0])
     images = "how the textures of tiles are written: webp, webp:85, jpeg:90@2048 (default webp)"
@@ -39,10 +45,16 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace, console: Console) -> int:
     # Raises the errors of wrong values, before hours of reading.
-    EncodeOptions(grid_cell=1.0 if args.grid_cell is None else args.grid_cell, grid_origin=args.grid_origin)
+    EncodeOptions(
+        grid_cell=1.0 if args.grid_cell is None else args.grid_cell, grid_origin=args.grid_origin
+    )
     if not is_url(args.input) and args.input != "-":
         os.stat(args.input)
-    beside = f"{name_in(args.output) or 'tiles'}.work" if is_url(args.output) else os.path.join(args.output, ".work")
+    beside = (
+        f"{name_in(args.output) or 'tiles'}.work"
+        if is_url(args.output)
+        else os.path.join(args.output, ".work")
+    )
     work = Path(os.path.abspath(args.work or beside))
     # The default lies in the output folder, which others may be able to write to.
     if not args.work and work.is_symlink():
@@ -54,7 +66,11 @@ def run(args: argparse.Namespace, console: Console) -> int:
         for folder in folders_taken:
             folders.enter_context(there(folder))
         is_left = max(
-            *(folders.enter_context(held(folder, args.force or args.resume)) for folder in folders_taken), False
+            *(
+                folders.enter_context(held(folder, args.force or args.resume))
+                for folder in folders_taken
+            ),
+            False,
         )
         folders.enter_context(console.progress())
         return _run(args, console, work, is_left)
@@ -76,19 +92,24 @@ def _run(args: argparse.Namespace, console: Console, work: Path, is_left: bool) 
     # The manifest is written after the last tile, so that a reader never takes a part for the whole. The work stays and
     # can be resumed.
     if failed := [facts for facts in rows if "error" in facts]:
-        console.note(f"{len(failed)} of {len(rows)} tiles failed; --resume repeats these and the tiles above them")
+        console.note(
+            f"{len(failed)} of {len(rows)} tiles failed; --resume repeats these and the tiles above them"
+        )
         return int(failed[0]["exit"])
     over = args.force or args.resume
     rows.sort(key=lambda facts: (-len(Path(facts["output"]).stem), facts["output"]))
     write_unfinished(args.output, args.input)
-    manifest, bytes_written = write_shards(args.output, plan, rows, os.path.basename(args.input), overwrite=over)
+    manifest, bytes_written = write_shards(
+        args.output, plan, rows, os.path.basename(args.input), overwrite=over
+    )
     # Before the tileset, which needs as much room again.
     remove_made(work)
     if args.tileset:
         bytes_written = write_tileset(
             open_tiles(args.output), args.output, console, content=args.tileset, overwrite=over
         )
-        for name in (MANIFEST, *(shard["file"] for shard in manifest["shards"])):  # what the tileset holds again
+        # What the tileset holds again.
+        for name in (MANIFEST, *(shard["file"] for shard in manifest["shards"])):
             remove(posixpath.join(args.output, name))
     elif over:
         with suppress(FileNotFoundError):
@@ -104,7 +125,9 @@ def _run(args: argparse.Namespace, console: Console, work: Path, is_left: bool) 
             f"(fewer with --grid-cell {plan.lattice.cell / 2:g})"
         )
     if ratios := [facts["psnr_db"] for facts in rows if facts.get("psnr_db") is not None]:
-        console.note(f"textures are written as {args.images.kind}, PSNR {min(ratios):.1f} dB in the worst tile")
+        console.note(
+            f"textures are written as {args.images.kind}, PSNR {min(ratios):.1f} dB in the worst tile"
+        )
     if args.json:
         print_json(manifest)
     return 0
@@ -131,7 +154,8 @@ def _begun(args: argparse.Namespace, work: Path, console: Console, is_left: bool
         raise FileExistsError(errno.EEXIST, message, args.output)
     for name in (MANIFEST, TILESET):
         refuse_to_overwrite(
-            posixpath.join(args.output, name), args.force or bool(unfinished) or (is_left and args.resume)
+            posixpath.join(args.output, name),
+            args.force or bool(unfinished) or (is_left and args.resume),
         )
     refuse_others(work)
     if unfinished is not False:
@@ -148,7 +172,9 @@ def _begun(args: argparse.Namespace, work: Path, console: Console, is_left: bool
 
 def _planned(args: argparse.Namespace, work: Path, console: Console) -> Plan:
     """Return the plan of the resumed run, or of a new one."""
-    options = {name: getattr(args, name) for name in ("triangles", "grid_cell", "grid_origin", "images")}
+    options = {
+        name: getattr(args, name) for name in ("triangles", "grid_cell", "grid_origin", "images")
+    }
     # With other options or another input, tiles of two runs would not fit together.
     asked_for = repr((options, state_of(args.input)))
     note = work / NOTE
@@ -166,10 +192,14 @@ def _planned(args: argparse.Namespace, work: Path, console: Console) -> Plan:
         raw = read_big(args.input, args.format, work, console)
         if raw.left_out:
             names = ", ".join(raw.left_out)
-            console.note(f"{args.input}: left out: {names}; tiles have positions, faces, colors, normals, textures")
+            console.note(
+                f"{args.input}: left out: {names}; tiles have positions, faces, colors, normals, textures"
+            )
         with console.progress("cutting", until=0.3):
             threads = args.jobs or available_threads()
-            plan = cut(raw, *chosen_lattice(raw, args.grid_cell, args.grid_origin, threads), args.triangles)
+            plan = cut(
+                raw, *chosen_lattice(raw, args.grid_cell, args.grid_origin, threads), args.triangles
+            )
     # Plain errors of the system, such as a full disk, leave the work for --resume.
     except BsmError:  # no run could go on with what is refused
         remove_made(work)

@@ -25,7 +25,9 @@ def run(args: argparse.Namespace, console: Console) -> None:
     refuse_to_overwrite(args.output, args.force)
     levels = [level["level"] for level in tiles.manifest["levels"]]
     if args.level is not None and not levels[0] <= args.level <= levels[-1]:
-        raise OptionError(f"--level {args.level}: these tiles have levels {levels[0]} to {levels[-1]}")
+        raise OptionError(
+            f"--level {args.level}: these tiles have levels {levels[0]} to {levels[-1]}"
+        )
     if Path(args.output).name == TILESET:
         if args.box or args.level is not None or args.error is not None:
             raise OptionError(f"{TILESET} contains all tiles; leave out --box, --level and --error")
@@ -44,7 +46,14 @@ def run(args: argparse.Namespace, console: Console) -> None:
             mesh = tiles.region(ends[:3], ends[3:], args.error or 0.0, level=args.level)
         summary = {"vertices": len(mesh.positions), "faces": len(mesh.faces)}
         # On the grid that the tiles are on, a stream keeps their positions to the bit.
-        grid: dict[str, Any] = {"grid_cell": tiles.lattice.cell, "grid_origin": tiles.lattice.origin}
+        grid: dict[str, Any] = {
+            "grid_cell": tiles.lattice.cell,
+            "grid_origin": tiles.lattice.origin,
+        }
         stream = Path(args.output).suffix.lower() == ".bsm"
-        by_name("bsm.api", "save")(mesh, args.output, overwrite=args.force, **(grid if stream else {}))
-    console.note(f"{args.input} -> {args.output}: {summary['vertices']} vertices, {summary['faces']} faces")
+        by_name("bsm.api", "save")(
+            mesh, args.output, overwrite=args.force, **(grid if stream else {})
+        )
+    console.note(
+        f"{args.input} -> {args.output}: {summary['vertices']} vertices, {summary['faces']} faces"
+    )

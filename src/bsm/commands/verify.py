@@ -16,7 +16,14 @@ from bsm.commands.flags import add_flags, add_inputs, asked
 from bsm.files.images import LinkedImage, is_link, linked_images
 from bsm.files.inspection import StreamInfo, inspect_stream
 from bsm.files.pipes import digest_of, is_url, read_chunks
-from bsm.files.stream import decode_through, decode_whole, is_scene, is_stream, is_tiles, refuse_mesh
+from bsm.files.stream import (
+    decode_through,
+    decode_whole,
+    is_scene,
+    is_stream,
+    is_tiles,
+    refuse_mesh,
+)
 from bsm.files.table import by_name
 from bsm.ground.console import Console
 from bsm.ground.exits import exit_of, worded
@@ -74,7 +81,13 @@ def verify_one(args: VerifyJob, console: Console) -> Facts:
     # Only streams with a checksum of decoded positions prove that. Short ones have none.
     matches = ", positions match the encoder's" if verdict.facts.get("checked") else ""
     console.note(f"{args.input}: whole, {verdict.contents}, {verdict.size} bytes{matches}")
-    return {"input": args.input, "ok": True, "decoded": not args.quick, **verdict.facts, "bytes": verdict.size}
+    return {
+        "input": args.input,
+        "ok": True,
+        "decoded": not args.quick,
+        **verdict.facts,
+        "bytes": verdict.size,
+    }
 
 
 def _verify(args: VerifyJob, console: Console) -> Verdict:
@@ -83,7 +96,9 @@ def _verify(args: VerifyJob, console: Console) -> Verdict:
     if is_tiles(args.input):
         return _verify_tiles(args)
     if Path(args.input).is_dir():
-        raise OptionError(f"{args.input} is a folder, and not one of tiles; bsm verify -r checks the streams in it")
+        raise OptionError(
+            f"{args.input} is a folder, and not one of tiles; bsm verify -r checks the streams in it"
+        )
     if is_scene(args.input):
         return _verify_scene(args)
     refuse_mesh(args.input)
@@ -95,7 +110,9 @@ def _verify(args: VerifyJob, console: Console) -> Verdict:
     links = sum(map(is_link, info.metadata))
     faults: list[Fault] = []
     if links and (args.input == "-" or is_url(args.input)):
-        console.note(f"{args.input}: not checked: {counted(images=links)} in files beside the stream")
+        console.note(
+            f"{args.input}: not checked: {counted(images=links)} in files beside the stream"
+        )
     elif links:
         faults = _image_faults(args.input, info.metadata)
         contents += f", {counted(images=links)} beside it"
@@ -107,7 +124,9 @@ def _check_stream(chunks: list[bytes], args: VerifyJob) -> StreamInfo:
     limits = as_limits(args.limits)
     info = inspect_stream(iter(chunks), limits)
     if not args.quick:
-        decode_through(iter(chunks), limits) if info.header.gop_frames else decode_whole(iter(chunks), limits)
+        decode_through(iter(chunks), limits) if info.header.gop_frames else decode_whole(
+            iter(chunks), limits
+        )
     return info
 
 
@@ -155,11 +174,17 @@ def _output_faults(args: VerifyJob, result: Facts, output: str) -> list[Fault]:
         return [_missing(output, "the output is missing")]
     expected = result.get("output_sha256")
     if expected is not None and digest != expected:
-        return [CorruptError(f"{output}: the output is damaged or was changed: its SHA-256 is not that of the report")]
+        return [
+            CorruptError(
+                f"{output}: the output is damaged or was changed: its SHA-256 is not that of the report"
+            )
+        ]
     if not Path(output).is_file() or not is_stream(output):
         return []
     # Equal bytes were decoded when they were written; only files beside the stream are left.
-    return _image_faults(output, inspect_stream(read_chunks(output), as_limits(args.limits)).metadata)
+    return _image_faults(
+        output, inspect_stream(read_chunks(output), as_limits(args.limits)).metadata
+    )
 
 
 def _state_of(faults: Sequence[Fault]) -> str:
@@ -172,7 +197,9 @@ def _state_of(faults: Sequence[Fault]) -> str:
 def _verify_scene(args: VerifyJob) -> Verdict:
     """Check every stream of a glTF scene."""
     document = by_name("bsm.gltf.document", "read_document")(args.input, as_limits(args.limits))
-    sizes = [_check_stream([document.view(number)], args).sizes["total"] for number in document.streams]
+    sizes = [
+        _check_stream([document.view(number)], args).sizes["total"] for number in document.streams
+    ]
     if not sizes:
         raise FormatError(f"{args.input}: this scene has no streams; bsm glb makes one that has")
     return Verdict(counted(streams=len(sizes)), sum(sizes))
@@ -184,5 +211,7 @@ def _verify_tiles(args: VerifyJob) -> Verdict:
     faults = list(tiles.faults(not args.quick))
     shards = tiles.manifest["shards"]
     return Verdict(
-        counted(tiles=sum(shard["tiles"] for shard in shards)), sum(shard["size"] for shard in shards), faults
+        counted(tiles=sum(shard["tiles"] for shard in shards)),
+        sum(shard["size"] for shard in shards),
+        faults,
     )

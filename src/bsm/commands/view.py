@@ -36,12 +36,17 @@ from bsm.viewer.page import (
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add = adder(parser)
-    text = (
-        "stream, - for a pipe, folder of streams or of tiles. Meshes and sequences are encoded and compared. Without "
-    )
-    add("inputs", "IN", f"{text}inputs, opens an empty page; drop a mesh on it", nargs="*")
+    text = "stream, - for a pipe, folder of streams or of tiles. Meshes and sequences are encoded "
+    text += "and compared. Without inputs, opens an empty page; drop a mesh on it"
+    add("inputs", "IN", text, nargs="*")
     names = [row.name for row in SEQUENCE_ROWS]
-    add("--preset", "", f"preset for meshes and sequences (default: {DEFAULT})", choices=names, default=DEFAULT)
+    add(
+        "--preset",
+        "",
+        f"preset for meshes and sequences (default: {DEFAULT})",
+        choices=names,
+        default=DEFAULT,
+    )
     add_flags(parser, "view", "limits")
 
 
@@ -60,19 +65,32 @@ def run(args: argparse.Namespace, console: Console) -> int:
     if len(args.inputs) == 1 and _has_streams(args.inputs[0]):
         return _view_folder(args.inputs[0], args, console)
     with console.progress("reading and comparing") as progress:
-        served = [_opened(name, path, args, console, progress) for name, path in _named(args.inputs).items()]
+        served = [
+            _opened(name, path, args, console, progress)
+            for name, path in _named(args.inputs).items()
+        ]
     contents = [content for content in served if isinstance(content, Content)]
     if args.save:
-        write_output(args.save, page_with(contents, args.crease_angle).encode(), overwrite=args.force)
+        write_output(
+            args.save, page_with(contents, args.crease_angle).encode(), overwrite=args.force
+        )
         console.note(f"{args.save}: open it in a browser")
     if args.static:
         static = [content for content in served if not isinstance(content, Arrival)]
         for name, data in site_with(static, args.crease_angle).items():
             file = Path(args.static, name)
             file.parent.mkdir(parents=True, exist_ok=True)
-            write_output(file, data if isinstance(data, bytes) else data.whole(), overwrite=args.force)
-        ranges = ", which must send ranges of files for tiles, as nginx does" if any(map(is_tiles, args.inputs)) else ""
-        example = "" if ranges else f", for example: python -m http.server -d {shlex.quote(args.static)}"
+            write_output(
+                file, data if isinstance(data, bytes) else data.whole(), overwrite=args.force
+            )
+        ranges = (
+            ", which must send ranges of files for tiles, as nginx does"
+            if any(map(is_tiles, args.inputs))
+            else ""
+        )
+        example = (
+            "" if ranges else f", for example: python -m http.server -d {shlex.quote(args.static)}"
+        )
         console.note(f"{args.static}: a page for any web server{ranges}{example}")
     if args.save or args.static:
         return 0
@@ -123,7 +141,10 @@ def _opened(
     """Open an input. The page reports a damaged stream, unless it is compared or the page is saved."""
     if is_tiles(path):
         manifest = open_tiles(path, as_limits(args.limits)).manifest
-        shards = {shard["file"]: Ranged(path, shard["file"], shard["size"]) for shard in manifest["shards"]}
+        shards = {
+            shard["file"]: Ranged(path, shard["file"], shard["size"])
+            for shard in manifest["shards"]
+        }
         return Tiled(name, {MANIFEST: json.dumps(manifest).encode(), **shards})
     if args.follow or (path == "-" and not (args.save or args.static or args.original)):
         return _growing(name, path)
@@ -151,7 +172,9 @@ def _opened(
         content = made(name, source.size, source.source, args.preset, progress.stage)
     for note in content.facts["notes"]:
         console.note(f"{path}: {note}")
-    console.note(f"{path}: {content.layers[content.main].size} bytes as a stream with preset {args.preset}")
+    console.note(
+        f"{path}: {content.layers[content.main].size} bytes as a stream with preset {args.preset}"
+    )
     return content
 
 
@@ -161,7 +184,11 @@ def _growing(name: str, path: str) -> Arrival:
     # A daemon, because a pipe may never end, and Ctrl-C must.
     Thread(target=growing.receive, args=(chunks,), daemon=True).start()
     if not growing.begins():
-        raise FormatError(NO_STREAM if path == "-" else f"{path} is not a BSM stream; only streams can be followed")
+        raise FormatError(
+            NO_STREAM
+            if path == "-"
+            else f"{path} is not a BSM stream; only streams can be followed"
+        )
     return growing
 
 
@@ -172,5 +199,11 @@ def _named(paths: list[str]) -> dict[str, str]:
         name = Path(path).name
         # Two files of one name from two folders are two entries of the page.
         others = (f"{name} ({number})" for number in itertools.count(2))
-        by_name[next(candidate for candidate in itertools.chain([name], others) if candidate not in by_name)] = path
+        by_name[
+            next(
+                candidate
+                for candidate in itertools.chain([name], others)
+                if candidate not in by_name
+            )
+        ] = path
     return by_name

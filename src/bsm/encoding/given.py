@@ -70,7 +70,9 @@ class Wishes:
             except BsmError:
                 raise error from None
 
-    def made(self, build: Callable[..., Any], kind: type[Any], known: Metadata, mesh: TriangleMesh | None) -> Any:
+    def made(
+        self, build: Callable[..., Any], kind: type[Any], known: Metadata, mesh: TriangleMesh | None
+    ) -> Any:
         """Return the options for a mesh with this metadata."""
         return chosen_options(self.options, kind, in_own_unit(self.keywords, known, mesh), build)
 
@@ -87,22 +89,38 @@ class Wishes:
         said = str(metadata.get(PROVENANCE, ""))
         # Provenance of other programs is kept, but not counted.
         if not said.startswith("bsm "):
-            return {**metadata, **({PROVENANCE: self._words(options, 1)} if self.provenance else {})}, []
+            return {
+                **metadata,
+                **({PROVENANCE: self._words(options, 1)} if self.provenance else {}),
+            }, []
         found = _GENERATION.search(said)
         generation = 1 + int(found[1] if found else 1)
         # On one grid, encoding again changes nothing. Otherwise each generation adds its error.
-        more = "" if getattr(options, "is_grid", False) else ": errors add up, so encode the original if you have it"
+        more = (
+            ""
+            if getattr(options, "is_grid", False)
+            else ": errors add up, so encode the original if you have it"
+        )
         notes = [f"the mesh was decoded from a stream, so this is generation {generation}{more}"]
         kept = {name: value for name, value in metadata.items() if name != PROVENANCE}
         whole = self.provenance or " sha256=" in said
-        words = self._words(options, generation) if whole else f"bsm {__version__} generation={generation}"
+        words = (
+            self._words(options, generation)
+            if whole
+            else f"bsm {__version__} generation={generation}"
+        )
         return kept if self.provenance is False else {**kept, PROVENANCE: words}, notes
 
     def _words(self, options: Any, generation: int) -> str:
         # The number of threads changes no byte, and values that are not plain cannot be written down.
         given = {**self.keywords, "simplify": self.simplify}
-        parts = [f"bsm {__version__}", given.pop("preset", None) or ("balanced" if options.promise else "none")]
-        plain = {n: v for n, v in given.items() if n != "threads" and isinstance(v, str | int | float)}
+        parts = [
+            f"bsm {__version__}",
+            given.pop("preset", None) or ("balanced" if options.promise else "none"),
+        ]
+        plain = {
+            n: v for n, v in given.items() if n != "threads" and isinstance(v, str | int | float)
+        }
         parts += [f"{name}={value}" for name, value in plain.items() if value is not False]
         parts += [f"generation={generation}"] if generation > 1 else []
         if Path(self.source).is_file():
@@ -133,14 +151,18 @@ def given_mesh(mesh: TriangleMesh, wishes: Wishes) -> Recipe:
     options: EncodeOptions = wishes.made(encode_options, EncodeOptions, known, mesh)
     qualities = dict(options.attributes)
     # Names of attributes that are left out would point to nothing.
-    left = {a.name for a in mesh.attributes if qualities.get(a.name, qualities.get("*")) == "none"} - {"material"}
+    left = {
+        a.name for a in mesh.attributes if qualities.get(a.name, qualities.get("*")) == "none"
+    } - {"material"}
     bare = qualities.get("*") == "none" and set(qualities.values()) == {"none"}
     held = without_names(without_materials(mesh.metadata) if bare else mesh.metadata, left)
     left_out = ["left out: materials, images"] * bool(mesh.metadata.keys() - held.keys())
     precision = PRECISION if is_single_and_far(mesh.positions) else {}
     # Images are changed before the provenance is written: it tells how the stream was made of the file, not of the
     # images.
-    sent, generations = wishes.signed(wishes.images({**precision, **held, **wishes.metadata}), options)
+    sent, generations = wishes.signed(
+        wishes.images({**precision, **held, **wishes.metadata}), options
+    )
     losses, unit = (*notes, *generations), asked_unit(wishes.keywords, known)
     sent_mesh, options = replace(mesh, metadata=sent), with_texels(options, mesh)
     return Recipe(sent_mesh, options, wishes.simplify, unit, losses, (*losses, *left_out))
@@ -148,7 +170,9 @@ def given_mesh(mesh: TriangleMesh, wishes: Wishes) -> Recipe:
 
 def given_part(mesh: TriangleMesh, **keywords: Any) -> Recipe:
     """A part of a scene or of tiles, which name unit and provenance for all of their parts."""
-    return Recipe(mesh, with_texels(encode_options(**in_own_unit(keywords, mesh.metadata, mesh)), mesh))
+    return Recipe(
+        mesh, with_texels(encode_options(**in_own_unit(keywords, mesh.metadata, mesh)), mesh)
+    )
 
 
 @dataclass(frozen=True, eq=False)
@@ -167,7 +191,9 @@ class MovingRecipe:
 def given_frames(source: Frames, wishes: Wishes, shown: TriangleMesh | None = None) -> MovingRecipe:
     """Frames for the wishes; `shown`: one of them, for the words of errors."""
     rate = {"frame_rate": source.frame_rate} if source.frame_rate else {}
-    known, notes = wishes.joined({name: value for name, value in source.metadata.items() if name != TIME_VALUE} | rate)
+    known, notes = wishes.joined(
+        {name: value for name, value in source.metadata.items() if name != TIME_VALUE} | rate
+    )
     # Caches of animations have no faces. Their reader finds vertices by number, so the order is part of their meaning.
     played = {"keep_order": True} if source.rigged and wishes.options is None else {}
     asked = replace(wishes, keywords={**played, **wishes.keywords})
@@ -190,6 +216,8 @@ def with_texels(options: EncodeOptions, mesh: TriangleMesh) -> EncodeOptions:
     if not side or "*" in asked or promise is None or promise.look == math.inf:
         return options
     bounds = {
-        a.name: repr(_TEXELS / side) for a in mesh.attributes if a.semantic == "texcoord" and a.values.dtype.kind == "f"
+        a.name: repr(_TEXELS / side)
+        for a in mesh.attributes
+        if a.semantic == "texcoord" and a.values.dtype.kind == "f"
     }
     return replace(options, attributes={**bounds, **asked})

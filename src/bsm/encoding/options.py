@@ -20,7 +20,8 @@ TARGETS = {"nmsve_db": "nmsve_db", "theta": "theta_deg", "bpv": "bpv", "size": "
 
 BOUNDS = ("look", "max_error")  # keywords of bounds of a mesh; they apply together
 
-SEQUENCE_TARGETS = {"kg": "kg", "bpvf": "bpvf", "theta": "theta_deg", "nmsve_db": "nmsve_db"}  # the same for sequences
+# The same for sequences.
+SEQUENCE_TARGETS = {"kg": "kg", "bpvf": "bpvf", "theta": "theta_deg", "nmsve_db": "nmsve_db"}
 
 SEQUENCE_STEPS = {row.name: row.frame_step for row in SEQUENCE_ROWS}
 """The presets of sequences that are sent frame by frame, which promise nothing."""
@@ -31,17 +32,25 @@ def encode_options(*, preset: str | None = None, **keywords: Any) -> EncodeOptio
     # None means "not given", in Python as on the command line, so callers can pass on what they got.
     asked = [name for name, value in keywords.items() if value is not None]
     promised = [name for name in asked if name in (*BOUNDS, "contract")]
-    grids, coding = ([name for name in names if name in asked] for names in (("grid", "grid_cell"), CODING))
+    grids, coding = (
+        [name for name in names if name in asked] for names in (("grid", "grid_cell"), CODING)
+    )
     targets = [name for name in asked if name in (*TARGETS, "target")]
     if base.is_grid and (excluded := [*promised, *targets, *grids, *coding]):
-        raise OptionError(f"preset {preset} fixes all positions and cannot be combined with {' and '.join(excluded)}")
+        raise OptionError(
+            f"preset {preset} fixes all positions and cannot be combined with {' and '.join(excluded)}"
+        )
     if base.sets_coding and (excluded := [*promised, *grids]):
-        raise OptionError(f"preset {preset} fixes the coding and cannot be combined with {' and '.join(excluded)}")
+        raise OptionError(
+            f"preset {preset} fixes the coding and cannot be combined with {' and '.join(excluded)}"
+        )
     # The default preset gives way to a grid, but one that the user has named contradicts it.
     if grids and preset is not None and base.contract is not None:
         promised.insert(0, f"the preset {preset}")
     if promised and (fixed := [*grids, *coding]):
-        raise OptionError(f"{fixed[0]} fixes the output and cannot be combined with {' and '.join(promised)}")
+        raise OptionError(
+            f"{fixed[0]} fixes the output and cannot be combined with {' and '.join(promised)}"
+        )
     given = _fields("a mesh", _OF_MESHES, _with_bounds(base, preset is not None, keywords), TARGETS)
     return changed(base, **given)
 
@@ -69,7 +78,9 @@ def _with_bounds(base: EncodeOptions, named: bool, keywords: Mapping[str, Any]) 
     return given
 
 
-def sequence_options(*, preset: str | None = None, low_delay: int = 0, **keywords: Any) -> SequenceOptions:
+def sequence_options(
+    *, preset: str | None = None, low_delay: int = 0, **keywords: Any
+) -> SequenceOptions:
     name = DEFAULT if preset is None else preset
     # Said by name, since these are known words for meshes, and "unknown preset" would surprise.
     if name in PRESETS and name not in SEQUENCE_STEPS:
@@ -84,15 +95,27 @@ def sequence_options(*, preset: str | None = None, low_delay: int = 0, **keyword
     if quick and (bounds or given.get("target") is not None):
         raise OptionError("effort quick does not search for a step; it excludes bounds and targets")
     if preset is not None and (given.get("target") is not None or given.get("step") is not None):
-        raise OptionError(f"a target or a step of a sequence replaces the preset {preset}: give one of both")
+        raise OptionError(
+            f"a target or a step of a sequence replaces the preset {preset}: give one of both"
+        )
     if bounds:
         if given.get("target") is not None or given.get("step") is not None:
-            raise OptionError(f"{' and '.join(bounds)} of a sequence cannot be combined with a target or a step")
-        farthest, absolute = parse_length("max_error", bounds.get("max_error", PROMISES[name].farthest))
+            raise OptionError(
+                f"{' and '.join(bounds)} of a sequence cannot be combined with a target or a step"
+            )
+        farthest, absolute = parse_length(
+            "max_error", bounds.get("max_error", PROMISES[name].farthest)
+        )
         # With low delay, frames are sent before later ones are known; there is no search that could keep a look.
-        look = checked("look", bounds.get("look", math.inf if together else PROMISES[name].look), float)
+        look = checked(
+            "look", bounds.get("look", math.inf if together else PROMISES[name].look), float
+        )
         given["promise"] = Contract(farthest, look=look, absolute=absolute)
-    elif not (together or quick or {"target", "step", "promise"} & {key for key in given if given[key] is not None}):
+    elif not (
+        together
+        or quick
+        or {"target", "step", "promise"} & {key for key in given if given[key] is not None}
+    ):
         given["promise"] = PROMISES[name]
     return replace(base, **given)
 
@@ -106,7 +129,9 @@ def denoise_options(**keywords: Any) -> Any:
     if fields_given.get("method") == "auto":
         del fields_given["method"]
         if fields_given:
-            raise OptionError(f"method auto chooses {next(iter(fields_given))} itself; leave it out, or name a method")
+            raise OptionError(
+                f"method auto chooses {next(iter(fields_given))} itself; leave it out, or name a method"
+            )
     return DenoiseOptions(**fields_given) if fields_given else None
 
 
@@ -114,7 +139,12 @@ def _names(*kinds: Any) -> set[str]:
     return {item.name for kind in kinds for item in fields(kind)}
 
 
-_COUNTERPARTS = {"size": ("bpvf", "2"), "bpv": ("bpvf", "2"), "bpvf": ("bpv", "8"), "kg": ("nmsve_db", "-50")}
+_COUNTERPARTS = {
+    "size": ("bpvf", "2"),
+    "bpv": ("bpvf", "2"),
+    "bpvf": ("bpv", "8"),
+    "kg": ("nmsve_db", "-50"),
+}
 """Options that a mesh or a sequence has for an option of the other, with a usual value."""
 _OF_MESHES = {*_names(EncodeOptions, Paper), *TARGETS, *BOUNDS, "preset"}
 _OF_SEQUENCES = {*_names(SequenceOptions), *SEQUENCE_TARGETS, "preset"}
@@ -132,35 +162,59 @@ def _advice_on(name: str, known: set[str]) -> str:
     return suggestion(name, sorted(known)) or f"; there are {', '.join(sorted(known))}"
 
 
-def _fields(what: str, known: set[str], keywords: Mapping[str, Any], targets: Mapping[str, str]) -> dict[str, Any]:
+def _fields(
+    what: str, known: set[str], keywords: Mapping[str, Any], targets: Mapping[str, str]
+) -> dict[str, Any]:
     """The fields of options that keywords give, the target among them; `ArgumentError` if one is not known."""
     given = {name: value for name, value in keywords.items() if name not in targets}
     for name in (name for name in given if name not in known):
         # An option of the other kind is the usual mistake, and "unknown" would be wrong.
-        for others, names in (("single meshes", {*_OF_MESHES, "simplify"}), ("sequences", _OF_SEQUENCES)):
+        for others, names in (
+            ("single meshes", {*_OF_MESHES, "simplify"}),
+            ("sequences", _OF_SEQUENCES),
+        ):
             if name in names and what != "denoising":
                 counterpart, value = _COUNTERPARTS.get(name, ("", ""))
                 as_option = f"--{counterpart.replace('_', '-')} {value}"
-                advice = f"; instead: {counterpart}={value}, as an option {as_option}" if counterpart in known else ""
+                advice = (
+                    f"; instead: {counterpart}={value}, as an option {as_option}"
+                    if counterpart in known
+                    else ""
+                )
                 raise ArgumentError(f"{name} is for {others}, not for {what}{advice}")
         raise ArgumentError(f"unknown option {name} for {what}{_advice_on(name, known)}")
-    wanted = [name for name, value in keywords.items() if name in (*targets, "target") and value is not None]
+    wanted = [
+        name
+        for name, value in keywords.items()
+        if name in (*targets, "target") and value is not None
+    ]
     if len(wanted) > 1:
         raise OptionError(f"give one target only, not {' and '.join(wanted)}")
     for name in wanted if "target" not in wanted else ():
-        number = parse_bytes(name, keywords[name]) if name == "size" else checked(name, keywords[name], float)
+        number = (
+            parse_bytes(name, keywords[name])
+            if name == "size"
+            else checked(name, keywords[name], float)
+        )
         given["target"] = Target(targets[name], number)
     return given
 
 
 def chosen_options(
-    options: _Options | None, kind: type[_Options], keywords: Mapping[str, Any], build: Callable[..., _Options | None]
+    options: _Options | None,
+    kind: type[_Options],
+    keywords: Mapping[str, Any],
+    build: Callable[..., _Options | None],
 ) -> _Options | None:
     """Return options that are made, or those of keywords; `ArgumentError` for both."""
     if options is None:
         return build(**keywords)
     if not isinstance(options, kind):
-        raise ArgumentError(f"{kind.__name__} is expected, not {type(options).__name__}; or give options by keyword")
+        raise ArgumentError(
+            f"{kind.__name__} is expected, not {type(options).__name__}; or give options by keyword"
+        )
     if keywords:
-        raise ArgumentError(f"give {kind.__name__}, or keywords such as {next(iter(keywords))}; not both")
+        raise ArgumentError(
+            f"give {kind.__name__}, or keywords such as {next(iter(keywords))}; not both"
+        )
     return options

@@ -35,12 +35,15 @@ from bsm.ground.console import Progress
 _TERMS, _BUCKETS = 10, 1 << 15  # of the scratch memory of the kernel
 _SEAM, _FIXED, _STEADY = 2, 4, 8  # states of vertices in the kernel
 # Rungs and not any number: results are kept by rung, and the searches meet the same ones again and again.
-RUNG, RUNGS = 2.0 ** (-1 / 16), 64  # triangles over those of the rung before; rungs, down to a sixteenth
+# Triangles over those of the rung before; rungs, down to a sixteenth.
+RUNG, RUNGS = 2.0 ** (-1 / 16), 64
 NEAREST, CHEAPEST = (1e-4, 0.0), (3e-4, 0.2)
 """Costs of moving along the surface, over leaving it, and of vertices without six neighbors: for the nearest surface,
 and for the fewest bytes."""
-LOOSEST, LOOSER, LADDER = 0.1, 0.4, 9  # what it costs to be rough over leaving the surface: most, each over the last
-SMOOTHING, SWEEPS, PACE = 0.5, 8, 0.7  # of vertices that slide: the filter, how often, and how much of the way
+# What it costs to be rough over leaving the surface: most, each over the last.
+LOOSEST, LOOSER, LADDER = 0.1, 0.4, 9
+# Of vertices that slide: the filter, how often, and how much of the way.
+SMOOTHING, SWEEPS, PACE = 0.5, 8, 0.7
 SLID = 0.25  # of the promise, what sliding may take before any triangle is left out
 # Simplifying and coding share one promise. How to divide it best depends on the mesh, so a few shares are tried, as
 # long as the bytes fall.
@@ -64,7 +67,9 @@ class Chosen:
     notes: tuple[str, ...] = ()  # about the original
 
 
-def encode_source(mesh: TriangleMesh, options: EncodeOptions, progress: Progress, *, simplify: bool) -> Chosen:
+def encode_source(
+    mesh: TriangleMesh, options: EncodeOptions, progress: Progress, *, simplify: bool
+) -> Chosen:
     """Encode a mesh; to `simplify`, also with fewer and fewer triangles: the smallest stream that keeps the promise."""
     if not simplify:
         encoder = Encoder(mesh, options)
@@ -103,7 +108,9 @@ class StandIn:
 class _Encoder(Encoder):
     """Encodes a mesh that stands for another one, of which pictures are shown."""
 
-    def __init__(self, mesh: TriangleMesh, options: EncodeOptions, shown: LookMetric | None) -> None:
+    def __init__(
+        self, mesh: TriangleMesh, options: EncodeOptions, shown: LookMetric | None
+    ) -> None:
         super().__init__(mesh, options)
         self._input = self._input.but(drawn=shown)
 
@@ -115,21 +122,30 @@ class Source:
         # Without a promise there is no measure of how much may be left out.
         promise = options.promise
         if promise is None:
-            raise OptionError("simplify needs a promise to keep; it excludes grids, lossless, steps and preset none")
+            raise OptionError(
+                "simplify needs a promise to keep; it excludes grids, lossless, steps and preset none"
+            )
         if options.keep_order:
             raise OptionError("simplify changes vertices and faces; it excludes keep_order")
         if options.target or promise.angle < ANY_ANGLE or promise.visual < math.inf:
-            raise OptionError("simplify keeps the look and the largest error; it excludes targets and other bounds")
+            raise OptionError(
+                "simplify keeps the look and the largest error; it excludes targets and other bounds"
+            )
         self.promise, self._given = promise, mesh
         self._input = Sent(mesh, options)
         joined, prepared = self._input.joined, self._input.prepared
         sent = (attribute for attribute, _ in self._input.qualities)
-        found = (_of_vertices(attribute, mesh, joined.mesh.faces, joined.coded_faces) for attribute in sent)
+        found = (
+            _of_vertices(attribute, mesh, joined.mesh.faces, joined.coded_faces)
+            for attribute in sent
+        )
         attributes = tuple(replace(one, values=one.values[prepared.coding_order]) for one in found)
         # In the order of coding, in which neighbors are near each other.
         self.full_mesh = replace(prepared.mesh, attributes=attributes, metadata=mesh.metadata)
         kept = {"*", *(attribute.name for attribute in attributes)}
-        asked = {name: quality for name, quality in dict(options.attributes).items() if name in kept}
+        asked = {
+            name: quality for name, quality in dict(options.attributes).items() if name in kept
+        }
         self.options = replace(options, attributes=asked)
         # Two searches over the same rungs. A stand-in takes long to make, and as much memory as the mesh, so a few are
         # kept.
@@ -139,30 +155,47 @@ class Source:
     def _reach(self) -> Matrix:
         """How far each vertex may be from the decoded surface, in the unit of the mesh, shape (n,)."""
         prepared = self._input.prepared
-        return gaps(prepared, self.promise).kept(reaches(prepared, self.promise)) * prepared.units.scale
+        return (
+            gaps(prepared, self.promise).kept(reaches(prepared, self.promise))
+            * prepared.units.scale
+        )
 
     @cached_property
     def _metric(self) -> LookMetric | None:
-        return None if self.promise.look == math.inf else LookMetric(self.full_mesh, threads=self.options.threads)
+        return (
+            None
+            if self.promise.look == math.inf
+            else LookMetric(self.full_mesh, threads=self.options.threads)
+        )
 
     @cached_property
     def _looks(self) -> list[Callable[[TriangleMesh], Look | float | None]]:
         if self._metric is None:
             return []
         colors, threads = look_values(self.full_mesh, "color"), self.options.threads
-        painted = [] if colors is None else [AttributeLook(self.full_mesh, "color", colors, threads=threads).compare]
+        painted = (
+            []
+            if colors is None
+            else [AttributeLook(self.full_mesh, "color", colors, threads=threads).compare]
+        )
         return [self._metric.compare, *painted]
 
     def look(self, other: TriangleMesh) -> float:
         """The look distance of another mesh from the original, also in colors, as a share of the promise."""
         looks = (look(other) for look in self._looks)
-        found = (look.distance if isinstance(look, Look) else math.inf if look is None else look for look in looks)
+        found = (
+            look.distance if isinstance(look, Look) else math.inf if look is None else look
+            for look in looks
+        )
         return max(found, default=0.0) / self.promise.look
 
     def apart(self, other: TriangleMesh, reach: Matrix, enough: float = 1.0) -> float:
         """The largest distance of both surfaces as a share of the bound (others: `reach`); exact if above `enough`."""
         shares = []
-        for one, two, bound in ((self.full_mesh, other, self._reach), (other, self.full_mesh, reach)):
+        for one, two, bound in (
+            (self.full_mesh, other, self._reach),
+            (other, self.full_mesh, reach),
+        ):
             # Vertices alone would miss a fold between them, so middles of sides and faces are measured, with the
             # stricter bound of their ends.
             allowed = np.concatenate([bound, *_of_sides(bound[one.faces], np.min)])
@@ -173,12 +206,18 @@ class Source:
 
     def distance(self, other: TriangleMesh) -> float:
         """The largest distance of both surfaces where `bsm compare` measures, in the unit of the mesh."""
-        return surface_distance(self._given.positions, self._given.faces, other.positions, other.faces).hausdorff
+        return surface_distance(
+            self._given.positions, self._given.faces, other.positions, other.faces
+        ).hausdorff
 
     def _stand_in(self, rung: int, loose: int | None) -> StandIn:
         """A mesh on a rung, of which vertices may be as loose as another one says, with attributes of nearest ones."""
         whole = self.full_mesh
-        low, scale, target = whole.positions.min(axis=0), whole.diagonal or 1.0, RUNG**rung * len(whole.faces)
+        low, scale, target = (
+            whole.positions.min(axis=0),
+            whole.diagonal or 1.0,
+            RUNG**rung * len(whole.faces),
+        )
         placed = (whole.positions - low) / scale
         new, faces, owners, _, quadrics = collapsed(
             # In a unit cube, since costs are compared with numbers that do not know the size of the mesh.
@@ -197,20 +236,28 @@ class Source:
         reach = np.full(len(new), np.inf)
         # A vertex that stands for several must keep the strictest of their bounds.
         np.minimum.at(reach, owners[kept], self._reach[kept])
-        attributes = tuple(replace(attribute, values=attribute.values[nearest]) for attribute in whole.attributes)
+        attributes = tuple(
+            replace(attribute, values=attribute.values[nearest]) for attribute in whole.attributes
+        )
         mesh = TriangleMesh(new * scale + low, faces, attributes, whole.metadata)
         spent = math.inf if len(faces) > ENOUGH * target else self.look(mesh)
-        return StandIn(mesh, reach, spent if self._looks else max(spent, self.apart(mesh, reach, NEAR)))
+        return StandIn(
+            mesh, reach, spent if self._looks else max(spent, self.apart(mesh, reach, NEAR))
+        )
 
     @cached_property
     def _loose(self) -> int:
         """The rung on which vertices are as loose as they may be."""
-        return bisect_left(range(LADDER), True, key=lambda loose: self.stand_in(0, loose).spent <= SLID)
+        return bisect_left(
+            range(LADDER), True, key=lambda loose: self.stand_in(0, loose).spent <= SLID
+        )
 
     def taking(self, share: float, slides: bool) -> StandIn:
         """The stand-in of fewest triangles that takes such a share of the promise at most."""
         loose = self._loose if slides else None
-        rung = bisect_left(range(RUNGS), True, key=lambda rung: self.stand_in(rung + 1, loose).spent > share)
+        rung = bisect_left(
+            range(RUNGS), True, key=lambda rung: self.stand_in(rung + 1, loose).spent > share
+        )
         return self.stand_in(rung, loose)
 
     def encoded(self, one: StandIn, most: int, progress: Progress) -> Chosen | None:
@@ -223,7 +270,9 @@ class Source:
             near = AIM - off
             # The second stream is asked for what the first one missed, in proportion. Three tries find it, or nothing
             # does.
-            asked = replace(promise, look=look, farthest=near * promise.farthest, by_part=near * promise.by_part)
+            asked = replace(
+                promise, look=look, farthest=near * promise.farthest, by_part=near * promise.by_part
+            )
             encoder = _Encoder(one.mesh, replace(self.options, contract=asked), self._metric)
             try:
                 with progress.part("", 0.5):
@@ -234,29 +283,39 @@ class Source:
                 break
             # Measured on the decoded mesh, as always: the encoder's own promise is about the stand-in, not about the
             # original.
-            decoded = decode(b"".join(attempt.frames), NAMED_LIMITS[self.options.limits](), self.options.threads)
+            decoded = decode(
+                b"".join(attempt.frames), NAMED_LIMITS[self.options.limits](), self.options.threads
+            )
             placed = np.full(len(decoded.positions), np.inf)
             np.minimum.at(placed, encoder.vertex_index, one.reach)
             share, seen = self.apart(decoded, placed), self.look(decoded)
             if max(share, seen) <= 1.0:
                 encoder.look = seen * promise.look if self._metric else None
-                return Chosen(encoder, attempt, self.full_mesh, None, decoded, self._input.joined.notes)
+                return Chosen(
+                    encoder, attempt, self.full_mesh, None, decoded, self._input.joined.notes
+                )
             off, look = max(off, share - near), look * min(AIM / seen, 1.0)
         return None
 
 
-def _of_vertices(attribute: Attribute, mesh: TriangleMesh, faces: Faces, kept: npt.NDArray[Any]) -> Attribute:
+def _of_vertices(
+    attribute: Attribute, mesh: TriangleMesh, faces: Faces, kept: npt.NDArray[Any]
+) -> Attribute:
     """An attribute with one value for each vertex of joined faces, or an error that says why it has not."""
     name = attribute.name
     advice = f"leave it out (--attribute {name}=none), or encode without --simplify"
     if attribute.semantic not in ("normal", "color") or attribute.domain == "face":
-        raise OptionError(f"simplify carries normals and colors of vertices, but not {name}: {advice}")
+        raise OptionError(
+            f"simplify carries normals and colors of vertices, but not {name}: {advice}"
+        )
     corners = at_corners(attribute, mesh.faces)[kept]
     values = np.zeros((int(faces.max(initial=-1)) + 1, attribute.components), corners.dtype)
     values[faces[::-1]] = corners[::-1]
     # Collapsing edges across a seam would have to choose one of two values. Refused, since either would be seen.
     if not np.array_equal(values[faces], corners):
-        raise OptionError(f"{name} has seams, where a vertex has several values; simplify cannot keep them: {advice}")
+        raise OptionError(
+            f"{name} has seams, where a vertex has several values; simplify cannot keep them: {advice}"
+        )
     return Attribute(name, values, "vertex", attribute.semantic)
 
 
@@ -281,7 +340,11 @@ def collapsed(
         vertices = faces.ravel()[np.unique(wedges, return_index=True)[1]]  # of the wedges
         # A vertex with several wedges is on a seam; it may only move along it.
         stay[np.bincount(vertices, minlength=count) > 1] |= _SEAM
-    moved, left, own = np.array(positions, np.float64), np.array(faces, np.int32), np.array(own, np.int32)
+    moved, left, own = (
+        np.array(positions, np.float64),
+        np.array(faces, np.int32),
+        np.array(own, np.int32),
+    )
     ends, marks, owners = np.empty((3, count), np.int32)
     joins, quadrics = np.empty(int(own.max(initial=-1)) + 1, np.int32), np.empty((count, _TERMS))
     around = np.empty(count + 1, np.int64), np.empty(sides, np.int32)

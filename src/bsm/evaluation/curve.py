@@ -34,7 +34,10 @@ from bsm.ground.console import finite
 
 
 def encode_draco(mesh: TriangleMesh, position_bits: int, level: int, **more: Any) -> bytes:
-    draco, settings = _draco(), {"quantization_bits": position_bits, "compression_level": level, **more}
+    draco, settings = (
+        _draco(),
+        {"quantization_bits": position_bits, "compression_level": level, **more},
+    )
     # DracoPy ends the process on ranges that underflow in single precision, so they are refused here.
     require_sizes(mesh.positions, 1e-30, done="encoded by Draco")  # it crashes with smaller ones
     try:
@@ -52,15 +55,21 @@ def positions_in_order(mesh: TriangleMesh, decoded: TriangleMesh, position_bits:
     """What Draco made of each vertex of `mesh`, given the mesh that it decoded."""
     # Draco reorders vertices and does not tell how. A number that travels with each of them does.
     numbers = np.arange(len(mesh.positions), dtype=np.uint32)[:, None]
-    numbered = _draco().decode(encode_draco(mesh, position_bits, 10, generic_attributes={0: numbers}))
+    numbered = _draco().decode(
+        encode_draco(mesh, position_bits, 10, generic_attributes={0: numbers})
+    )
     original = numbered.get_attribute_by_unique_id(0)["data"].reshape(-1).astype(np.int64)
     points = np.asarray(numbered.points, dtype=np.float64)
     if len(np.unique(original)) != len(mesh.positions):
         raise MeshError("Draco dropped vertices; remove those that no face with area uses")
-    if not np.array_equal(canonical(original[numbered.faces]), canonical(mesh.faces[~degenerate(mesh.faces)])):
+    if not np.array_equal(
+        canonical(original[numbered.faces]), canonical(mesh.faces[~degenerate(mesh.faces)])
+    ):
         raise MeshError("Draco's numbered faces are not those of the original")
     # The measured file has no numbers, which would cost bytes. Both are compared to be sure that the order is the same.
-    _, identity = np.unique(np.concatenate([points, decoded.positions]), axis=0, return_inverse=True)
+    _, identity = np.unique(
+        np.concatenate([points, decoded.positions]), axis=0, return_inverse=True
+    )
     first, second = identity[: len(points)], identity[len(points) :]
     if not np.array_equal(canonical(first[numbered.faces]), canonical(second[decoded.faces])):
         raise MeshError("Draco decodes to different triangles with and without numbered vertices")
@@ -97,7 +106,8 @@ class Spectral:
             item.name: getattr(mine, item.name)
             for mine, usual in ((options, defaults), (options.paper, defaults.paper))
             for item in fields(mine)
-            if item.name not in ("limits", "paper") and getattr(mine, item.name) != getattr(usual, item.name)
+            if item.name not in ("limits", "paper")
+            and getattr(mine, item.name) != getattr(usual, item.name)
         }
         # A target finds its own step, so the step of the options would mislead.
         if options.target is not None:
@@ -135,7 +145,9 @@ class Draco:
 
     def encode(self, mesh: TriangleMesh) -> tuple[bytes, Align]:
         # The rival gets its best setting, by trying.
-        data = min((encode_draco(mesh, self.position_bits, level) for level in self.levels), key=len)
+        data = min(
+            (encode_draco(mesh, self.position_bits, level) for level in self.levels), key=len
+        )
         return data, lambda decoded: positions_in_order(mesh, decoded, self.position_bits)
 
     def decode(self, data: bytes) -> TriangleMesh:
@@ -158,8 +170,10 @@ class Curve:
 
 
 PAPER_KEEPS = (0.05, 0.10, 0.15, 0.20, 0.25)
-PAPER_THRESHOLDS = (0.6, 0.4, 0.3, 0.2, 0.15)  # eps_h of dynamic orthogonal iterations; eps_l is a tenth less
-EXACT_BASES: dict[str, Any] = {"key_interval": 1, "key_seed": "svd"}  # every block in its exact basis, as by SVD
+# eps_h of dynamic orthogonal iterations; eps_l is a tenth less.
+PAPER_THRESHOLDS = (0.6, 0.4, 0.3, 0.2, 0.15)
+# Every block in its exact basis, as by SVD.
+EXACT_BASES: dict[str, Any] = {"key_interval": 1, "key_seed": "svd"}
 COLD_STARTS: dict[str, Any] = {"key_interval": 1, "key_seed": "cosines", "key_iterations": 1}
 """Every block by one orthogonal iteration from cosines."""
 PAPER_LINES: tuple[tuple[str, str, dict[str, Any]], ...] = (
@@ -172,7 +186,9 @@ PAPER_LINES: tuple[tuple[str, str, dict[str, Any]], ...] = (
     ("oi-r1-cold", "OI, R, no warm start", COLD_STARTS | {"power": 1}),
     ("oi-r2-cold", "OI, R², no warm start", COLD_STARTS | {"power": 2}),
 )
-DRACO = Curve("draco", "Draco", tuple(Draco(bits, (7, 10) if bits < 9 else (10,)) for bits in range(6, 15)))
+DRACO = Curve(
+    "draco", "Draco", tuple(Draco(bits, (7, 10) if bits < 9 else (10,)) for bits in range(6, 15))
+)
 """Draco at 6 to 14 bits per coordinate; level 10, below nine bits level 7 where it is smaller."""
 OUR_TARGETS = {
     "theta_deg": (15.0, 11.0, 8.0, 6.0, 4.0, 3.0, 2.0, 1.2, 0.7, 0.4, 0.2),
@@ -192,18 +208,27 @@ def paper_curves(block_size: int) -> tuple[Curve, ...]:
     """The lines of the paper's rate-distortion figure: orthogonal iterations of several kinds, DOI, and SVD last."""
 
     def line(name: str, label: str, settings: Sequence[dict[str, Any]]) -> Curve:
-        return Curve(name, label, tuple(Spectral(paper_options(block_size=block_size, **c)) for c in settings))
+        return Curve(
+            name,
+            label,
+            tuple(Spectral(paper_options(block_size=block_size, **c)) for c in settings),
+        )
 
     dynamic = [{"power": 1, "doi": (0.9 * threshold, threshold)} for threshold in PAPER_THRESHOLDS]
     every = (*PAPER_LINES, ("svd", "SVD", EXACT_BASES))
-    *fixed, svd = (line(name, label, [{"keep": keep, **own} for keep in PAPER_KEEPS]) for name, label, own in every)
+    *fixed, svd = (
+        line(name, label, [{"keep": keep, **own} for keep in PAPER_KEEPS])
+        for name, label, own in every
+    )
     return (*fixed, line("doi-r1", "DOI, R", dynamic), svd)
 
 
 def our_curve(rivals: Iterable[Result] = ()) -> Curve:
     """The codec's choice for the error of each point of rivals, and for others far from these."""
     points = [point for rival in rivals for point in rival["points"]]
-    targets = [Target(kind, value) for kind in OUR_TARGETS for value in targets_beside(points, kind)]
+    targets = [
+        Target(kind, value) for kind in OUR_TARGETS for value in targets_beside(points, kind)
+    ]
     options = (EncodeOptions(threads=1, contract=None, target=target) for target in targets)
     return Curve("ours", "ours", tuple(map(Spectral, options)))
 
@@ -279,7 +304,13 @@ def run_curve(
         if progress:
             progress(len(points), len(curve.codecs))
     facts = mesh_facts(mesh, name)
-    return {"schema": SCHEMA, "codec": curve.name, "label": curve.label, "mesh": facts, "points": points}
+    return {
+        "schema": SCHEMA,
+        "codec": curve.name,
+        "label": curve.label,
+        "mesh": facts,
+        "points": points,
+    }
 
 
 def mesh_facts(mesh: TriangleMesh, name: str) -> Result:
@@ -292,7 +323,9 @@ def write_result(result: Result, folder: Path) -> Path:
     """Write ``<mesh>.<codec>.json``."""
     folder.mkdir(parents=True, exist_ok=True)
     path = folder / f"{result['mesh']['name']}.{result['codec']}.json"
-    write_output(path, json.dumps(result, indent=1, allow_nan=False).encode(), overwrite=True, follow=False)
+    write_output(
+        path, json.dumps(result, indent=1, allow_nan=False).encode(), overwrite=True, follow=False
+    )
     return path
 
 
@@ -303,7 +336,9 @@ def read_results(folder: Path) -> Iterator[Result]:
             result = json.loads(path.read_text())
             # Old results have other meanings for the same names.
             if result.get("schema") != SCHEMA:
-                raise CorruptError(f"{path}: schema {result.get('schema')} is not {SCHEMA}; run the evaluation again")
+                raise CorruptError(
+                    f"{path}: schema {result.get('schema')} is not {SCHEMA}; run the evaluation again"
+                )
             points = [_POINT | point for point in result["points"]]
             if any(not point["bpv_total"] > 0.0 for point in points):
                 raise ValueError("a point without bpv_total")
@@ -311,12 +346,18 @@ def read_results(folder: Path) -> Iterator[Result]:
         except CorruptError:
             raise
         except (ValueError, KeyError, TypeError, AttributeError) as error:
-            raise FormatError(f"{path}: these are not points of a curve: {type(error).__name__}: {error}") from error
+            raise FormatError(
+                f"{path}: these are not points of a curve: {type(error).__name__}: {error}"
+            ) from error
         yield {**result, "points": points}
 
 
 PRINTED = "nmsve_paper_db"
-_POINT: Result = {"settings": {}, "bpv_total": 0.0, **dict.fromkeys(("nmsve_db", "theta_deg", PRINTED))}
+_POINT: Result = {
+    "settings": {},
+    "bpv_total": 0.0,
+    **dict.fromkeys(("nmsve_db", "theta_deg", PRINTED)),
+}
 """The entries of every point; None: it was not measured, or is exact."""
 
 
@@ -333,21 +374,37 @@ def read_points(path: str, meshes: Mapping[str, Result]) -> list[Result]:
         where = f"{path}: line {rows.line_num}"
         mesh = row.get("mesh") or (next(iter(meshes)) if len(meshes) == 1 else "")
         if mesh not in meshes:
-            raise FormatError(f"{where}: the column mesh must be one of {', '.join(meshes)}, not {mesh!r}")
+            raise FormatError(
+                f"{where}: the column mesh must be one of {', '.join(meshes)}, not {mesh!r}"
+            )
         try:
             point = (
-                _POINT | {"bpv_total": float(row["bpv"])} | {name: float(row[name]) for name in measures if row[name]}
+                _POINT
+                | {"bpv_total": float(row["bpv"])}
+                | {name: float(row[name]) for name in measures if row[name]}
             )
         except (TypeError, ValueError) as error:
-            raise FormatError(f"{where}: a number is missing or wrong: {error}; it has a point: 3.5") from error
-        if not point["bpv_total"] > 0.0 or not all(math.isfinite(point[name] or 0.0) for name in measures):
+            raise FormatError(
+                f"{where}: a number is missing or wrong: {error}; it has a point: 3.5"
+            ) from error
+        if not point["bpv_total"] > 0.0 or not all(
+            math.isfinite(point[name] or 0.0) for name in measures
+        ):
             raise FormatError(f"{where}: bits per vertex must be above 0, and errors finite")
         _refuse_impossible_errors(point, where)
         # The name becomes a part of a file name.
         codec = re.sub(r"[^\w-]+", "-", row["label"] or "").strip("-").lower() or "rival"
         if codec in STYLES:
-            raise FormatError(f"{where}: {row['label']} is a codec that is measured here; give another label")
-        begun: Result = {"schema": SCHEMA, "codec": codec, "label": row["label"], "mesh": meshes[mesh], "points": []}
+            raise FormatError(
+                f"{where}: {row['label']} is a codec that is measured here; give another label"
+            )
+        begun: Result = {
+            "schema": SCHEMA,
+            "codec": codec,
+            "label": row["label"],
+            "mesh": meshes[mesh],
+            "points": [],
+        }
         found.setdefault((mesh, codec), begun)["points"].append(point)
     return list(found.values())
 
@@ -375,10 +432,14 @@ def _refuse_impossible_errors(point: Mapping[str, Any], where: str) -> None:
             f"alike are below 0: is it {-decibels:g}?"
         )
     if angle is not None and not 0.0 <= angle <= 180.0:
-        raise FormatError(f"{where}: theta_deg is {angle:g}; an angle between normals is 0 to 180 degrees")
+        raise FormatError(
+            f"{where}: theta_deg is {angle:g}; an angle between normals is 0 to 180 degrees"
+        )
 
 
-def timed(work: Callable[[], Any], repeats: int, clock: Callable[[], float] = time.perf_counter) -> tuple[float, Any]:
+def timed(
+    work: Callable[[], Any], repeats: int, clock: Callable[[], float] = time.perf_counter
+) -> tuple[float, Any]:
     """Return the seconds of the fastest of some runs, and the result."""
     runs = []
     for _ in range(max(1, repeats)):
@@ -408,7 +469,10 @@ class RateCurve:
 
     def rate(self, distortion: float) -> float | None:
         """Bits per vertex; None outside the measured range, or with a single point."""
-        if len(self.distortions) < 2 or not self.distortions[0] <= distortion <= self.distortions[-1]:
+        if (
+            len(self.distortions) < 2
+            or not self.distortions[0] <= distortion <= self.distortions[-1]
+        ):
             return None
         return float(np.exp(self.interpolated(distortion)))
 
@@ -428,14 +492,19 @@ def rate_curve(rates: Sequence[float], distortions: Sequence[float]) -> RateCurv
 
 def rate_curve_of(points: Sequence[Result], measure: str) -> RateCurve:
     """Curve of a result's points: bits of the file against one of `MEASURES`; lossless points are left out."""
-    usable = [(point["bpv_total"], scaled(point[measure], measure)) for point in points_of(points, measure)]
+    usable = [
+        (point["bpv_total"], scaled(point[measure], measure))
+        for point in points_of(points, measure)
+    ]
     pairs = [(bits, distortion) for bits, distortion in usable if distortion is not None]
     return rate_curve([bits for bits, _ in pairs], [distortion for _, distortion in pairs])
 
 
 def beaten(points: Sequence[Result], measure: str) -> int:
     """How many points of a line another one beats in both, so that its curve leaves them out."""
-    usable = [point for point in points_of(points, measure) if scaled(point[measure], measure) is not None]
+    usable = [
+        point for point in points_of(points, measure) if scaled(point[measure], measure) is not None
+    ]
     return len(usable) - len(rate_curve_of(points, measure).distortions)
 
 
@@ -451,7 +520,10 @@ def bd_rate(reference: RateCurve, tested: RateCurve) -> float | None:
     curves = reference, tested
     if min(len(curve.distortions) for curve in curves) < 2:
         return None
-    low, high = max(curve.distortions[0] for curve in curves), min(curve.distortions[-1] for curve in curves)
+    low, high = (
+        max(curve.distortions[0] for curve in curves),
+        min(curve.distortions[-1] for curve in curves),
+    )
     if not low < high:
         return None
     # Over the logarithm of the rate, so that the mean difference is a ratio.
@@ -467,8 +539,14 @@ def rate_ratio(reference: RateCurve, tested: RateCurve, distortion: float) -> fl
 
 def compare_curves(reference: Result, tested: Result) -> Result:
     """One row of a table: one codec against another on one mesh."""
-    curves = {m: (rate_curve_of(reference["points"], m), rate_curve_of(tested["points"], m)) for m in MEASURES}
-    at_angles = {f"{a:g}": rate_ratio(*curves["theta_deg"], scaled(a, "theta_deg") or 0.0) for a in (7.0, 10.0)}
+    curves = {
+        m: (rate_curve_of(reference["points"], m), rate_curve_of(tested["points"], m))
+        for m in MEASURES
+    }
+    at_angles = {
+        f"{a:g}": rate_ratio(*curves["theta_deg"], scaled(a, "theta_deg") or 0.0)
+        for a in (7.0, 10.0)
+    }
     return {
         "beaten": {m: beaten(tested["points"], m) for m in MEASURES},
         "mesh": tested["mesh"]["name"],
@@ -516,9 +594,24 @@ STYLES = {
 """The color and the marker of each line, in every picture; others take turns."""
 OTHERS = (("#e377c2", "d"), ("#7f7f7f", "H"), ("#bcbd22", "8"), ("#000000", "x"), ("#8c564b", "+"))
 _LOOK: dict[Any, Any] = {
-    **{"font.family": "serif", "mathtext.fontset": "dejavuserif", "font.size": 8, "axes.titlesize": 8},
-    **{"legend.fontsize": 7, "legend.frameon": False, "axes.spines.top": False, "axes.spines.right": False},
-    **{"axes.linewidth": 0.6, "xtick.major.width": 0.6, "ytick.major.width": 0.6, "grid.linewidth": 0.4},
+    **{
+        "font.family": "serif",
+        "mathtext.fontset": "dejavuserif",
+        "font.size": 8,
+        "axes.titlesize": 8,
+    },
+    **{
+        "legend.fontsize": 7,
+        "legend.frameon": False,
+        "axes.spines.top": False,
+        "axes.spines.right": False,
+    },
+    **{
+        "axes.linewidth": 0.6,
+        "xtick.major.width": 0.6,
+        "ytick.major.width": 0.6,
+        "grid.linewidth": 0.4,
+    },
     **{"lines.linewidth": 1.1, "lines.markersize": 3.2, "pdf.fonttype": 42},
 }
 
@@ -539,7 +632,12 @@ class Picture(NamedTuple):
     height: float
 
     def save(
-        self, folder: Path, formats: Sequence[str] = FORMATS, *, overwrite: bool = True, follow: bool = False
+        self,
+        folder: Path,
+        formats: Sequence[str] = FORMATS,
+        *,
+        overwrite: bool = True,
+        follow: bool = False,
     ) -> list[Path]:
         from matplotlib import rc_context
 
@@ -558,7 +656,9 @@ def in_a_row(name: str, pictures: Sequence[Picture]) -> Picture:
     """Pictures as one, side by side."""
 
     def draw(figure: Any) -> None:
-        parts = figure.subfigures(1, len(pictures), width_ratios=[picture.width for picture in pictures], squeeze=False)
+        parts = figure.subfigures(
+            1, len(pictures), width_ratios=[picture.width for picture in pictures], squeeze=False
+        )
         for part, picture in zip(parts.flat, pictures):
             picture.draw(part)
 
@@ -594,18 +694,28 @@ def draw_rates(
             axes.grid(alpha=0.3)
         for row in grid:
             row[0].set_ylabel(measure)
-        figure.legend(shown.values(), shown, loc="outside lower center", ncols=min(len(shown), abreast))
+        figure.legend(
+            shown.values(), shown, loc="outside lower center", ncols=min(len(shown), abreast)
+        )
 
     labels = {line.label for lines in panels.values() for line in lines.values()}
     abreast = across + (max(map(len, labels)) < 40)
-    return Picture(name, draw, 3.2 * across if across > 1 else 4.2, 2.7 * down + 0.13 * (len(labels) // abreast + 2))
+    return Picture(
+        name,
+        draw,
+        3.2 * across if across > 1 else 4.2,
+        2.7 * down + 0.13 * (len(labels) // abreast + 2),
+    )
 
 
 def frame_errors(frames: Sequence[Mapping[str, float]], title: str) -> bytes:
     figure = new_figure(7.0, 4.0)
     axes = figure.subplots()
     axes.grid(alpha=0.3)
-    for name, label in (("max_error_relative", "largest vertex error"), ("rms_relative", "root mean square")):
+    for name, label in (
+        ("max_error_relative", "largest vertex error"),
+        ("rms_relative", "root mean square"),
+    ):
         axes.plot([100.0 * frame[name] for frame in frames], lw=1.2, label=label)
     axes.set_ylim(bottom=0.0)
     axes.set(xlabel="frame", ylabel="% of the diagonal", title=title)
@@ -641,7 +751,9 @@ def draw_all(results: Iterable[Result], named: Iterable[str] = ()) -> Iterator[P
     for measure, label in MEASURES.items() if shown else ():
         every = {title_of(group[0]): lines_of(group, measure) for group in shown.values()}
         if panels := {title: lines for title, lines in every.items() if lines}:
-            yield draw_rates(panels, "bits per vertex, whole file", label, f"{stem}.{measure.split('_')[0]}")
+            yield draw_rates(
+                panels, "bits per vertex, whole file", label, f"{stem}.{measure.split('_')[0]}"
+            )
 
 
 SAME = 0.02
@@ -653,7 +765,10 @@ def distinct(lines: Mapping[str, Line]) -> dict[str, Line]:
     kept: dict[str, Line] = {}
     for codec, line in lines.items():
         for name, (label, points) in kept.items():
-            if len(points) == len(line.points) and np.abs(np.subtract(points, line.points)).max() <= SAME:
+            if (
+                len(points) == len(line.points)
+                and np.abs(np.subtract(points, line.points)).max() <= SAME
+            ):
                 kept[name] = Line(f"{label} = {line.label}", points)
                 break
         else:
@@ -664,10 +779,14 @@ def distinct(lines: Mapping[str, Line]) -> dict[str, Line]:
 def lines_of(results: Sequence[Result], measure: str) -> dict[str, Line]:
     """The lines of one mesh for one of `MEASURES`, by codec; labels tell the range of targets, where there are any."""
     lines = {}
-    for result in sorted(results, key=lambda result: [*STYLES, result["codec"]].index(result["codec"])):
+    for result in sorted(
+        results, key=lambda result: [*STYLES, result["codec"]].index(result["codec"])
+    ):
         points = points_of(result["points"], measure)
         targets = [p["settings"]["target"]["value"] for p in points if "target" in p["settings"]]
-        asked = f", asked for {targets[0]:.4g} to {targets[-1]:.4g}{UNITS[measure]}" if targets else ""
+        asked = (
+            f", asked for {targets[0]:.4g} to {targets[-1]:.4g}{UNITS[measure]}" if targets else ""
+        )
         if points:
             pairs = [(point["bpv_total"], point[measure]) for point in points]
             lines[result["codec"]] = Line(result["label"] + asked, pairs)
@@ -677,12 +796,19 @@ def lines_of(results: Sequence[Result], measure: str) -> dict[str, Line]:
 def points_of(points: Sequence[Result], measure: str) -> list[Result]:
     """The points of a line of one of `MEASURES`: not those that were chosen for another, nor lossless ones."""
     kinds = [point.get("settings", {}).get("target", {}).get("kind", measure) for point in points]
-    return [p for p, kind in zip(points, kinds, strict=True) if kind == measure and p[measure] is not None]
+    return [
+        p
+        for p, kind in zip(points, kinds, strict=True)
+        if kind == measure and p[measure] is not None
+    ]
 
 
 def seconds_of(points: Sequence[Result]) -> str:
     """The times that encoding took, in words."""
-    times = sorted({f"{point['encode_seconds']:.2g}" for point in points if point.get("encode_seconds")}, key=float)
+    times = sorted(
+        {f"{point['encode_seconds']:.2g}" for point in points if point.get("encode_seconds")},
+        key=float,
+    )
     return f" ({' to '.join(times[:: max(1, len(times) - 1)])} s)" if times else ""
 
 

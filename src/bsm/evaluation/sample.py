@@ -18,7 +18,9 @@ def knot(vertices: int = 20_000, seed: int = 1) -> TriangleMesh:
     # Points in the unit square, one in each cell of a brick wall whose bricks are square on the tube.
     across = max(4, round((vertices / _ASPECT) ** 0.5))
     along = max(12, round(vertices / across))
-    cells = np.stack(np.meshgrid(np.arange(along), np.arange(across), indexing="ij"), axis=-1).reshape(-1, 2)
+    cells = np.stack(
+        np.meshgrid(np.arange(along), np.arange(across), indexing="ij"), axis=-1
+    ).reshape(-1, 2)
     bricks = cells + (0.0, 0.5) * (cells[:, :1] % 2)
     places = np.asarray((bricks + random.uniform(0.25, 0.75, cells.shape)) / (along, across) % 1.0)
     return TriangleMesh(_tube(*places.T), _periodic_triangles(places))
@@ -26,7 +28,9 @@ def knot(vertices: int = 20_000, seed: int = 1) -> TriangleMesh:
 
 def _periodic_triangles(places: Doubles) -> npt.NDArray[np.int32]:
     """Delaunay triangles of points in the unit square, whose opposite sides are one."""
-    shifts = np.array([(0, 0), *((x, y) for x in (-1, 0, 1) for y in (-1, 0, 1) if (x, y) != (0, 0))])
+    shifts = np.array(
+        [(0, 0), *((x, y) for x in (-1, 0, 1) for y in (-1, 0, 1) if (x, y) != (0, 0))]
+    )
     copies = (places + shifts[:, None]).reshape(-1, 2)
     # Nothing beyond a margin of a few cells can matter.
     near = np.flatnonzero((np.abs(copies - 0.5) < 0.7).all(axis=1))
@@ -51,7 +55,9 @@ def _tube(along: Doubles, around: Doubles) -> Doubles:
     dents = 0.05 * np.cos(36 * t) * np.cos(3 * v)
     grain = 0.008 * np.sin(90 * t) * np.sin(16 * v)
     radius = (_TUBE * (1 + rope + dents + grain))[:, None]
-    return np.asarray(center + radius * (np.cos(v)[:, None] * normal + np.sin(v)[:, None] * binormal))
+    return np.asarray(
+        center + radius * (np.cos(v)[:, None] * normal + np.sin(v)[:, None] * binormal)
+    )
 
 
 def _trefoil(t: Doubles) -> Doubles:

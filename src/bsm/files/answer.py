@@ -24,7 +24,10 @@ _COUNT = struct.Struct("<Q")
 _ROW = struct.Struct("<IIQQ")  # a kind, columns, rows, and the first byte after the table
 _PLAIN: dict[type, tuple[Callable[[Any], bytes], Callable[[bytes], Any]]] = {
     # Names of files that are not UTF-8 hold lone surrogates in Python; strict coding would lose the whole answer.
-    str: (lambda text: text.encode(errors="surrogatepass"), lambda data: data.decode(errors="surrogatepass")),
+    str: (
+        lambda text: text.encode(errors="surrogatepass"),
+        lambda data: data.decode(errors="surrogatepass"),
+    ),
     bytes: (bytes, bytes),
     float: (struct.Struct("<d").pack, lambda data: struct.unpack("<d", data)[0]),
     int: (
@@ -35,10 +38,18 @@ _PLAIN: dict[type, tuple[Callable[[Any], bytes], Callable[[bytes], Any]]] = {
 }
 """Values besides arrays: how each becomes bytes, and is made of them again."""
 _KINDS = (*KINDS, *_PLAIN)
-_COST, _LETTER = 1 << 10, 8  # bytes of memory that a row is charged, for its time, too, and a byte of text
+# Bytes of memory that a row is charged, for its time, too, and a byte of text.
+_COST, _LETTER = 1 << 10, 8
 _MOST_WORDS = 4096  # letters of an error
 _REFUSALS: tuple[type[BsmError], ...] = (
-    *(FormatError, LimitError, NoFacesError, errors.MeshError, errors.TruncatedError, errors.CorruptError),
+    *(
+        FormatError,
+        LimitError,
+        NoFacesError,
+        errors.MeshError,
+        errors.TruncatedError,
+        errors.CorruptError,
+    ),
     *(errors.UnsupportedError, errors.DependencyError),
 )
 """Errors of readers."""
@@ -47,24 +58,46 @@ FRAMES: tuple[type, ...] = (type(None), Frames, errors.OptionError, *_REFUSALS)
 """The answers that are accepted from readers of meshes and of sequences."""
 _METADATA = [(str, str | bytes | int | float)]
 _PARTS: dict[type, dict[str, Any]] = {
-    Attribute: {"name": str, "values": np.ndarray, "domain": str, "semantic": str, "indices": np.ndarray | None},
-    TriangleMesh: {"positions": np.ndarray, "faces": np.ndarray, "attributes": [Attribute], "metadata": _METADATA},
+    Attribute: {
+        "name": str,
+        "values": np.ndarray,
+        "domain": str,
+        "semantic": str,
+        "indices": np.ndarray | None,
+    },
+    TriangleMesh: {
+        "positions": np.ndarray,
+        "faces": np.ndarray,
+        "attributes": [Attribute],
+        "metadata": _METADATA,
+    },
     MeshFile: {"mesh": TriangleMesh, "notes": [str], "dropped": [str]},
     Frames: {
-        **{"faces": np.ndarray, "count": int, "frames": [np.ndarray], "attributes": [Attribute], "notes": [str]},
+        **{
+            "faces": np.ndarray,
+            "count": int,
+            "frames": [np.ndarray],
+            "attributes": [Attribute],
+            "notes": [str],
+        },
         **{"frame_rate": float, "metadata": _METADATA, "rigged": int, "meshes": [TriangleMesh]},
     },
     **dict.fromkeys(
-        (errors.OptionError, *_REFUSALS), dict.fromkeys(("offset", "frame", "block"), int | None) | {"message": str}
+        (errors.OptionError, *_REFUSALS),
+        dict.fromkeys(("offset", "frame", "block"), int | None) | {"message": str},
     ),
 }
 """What an answer is made of, in this order; `[one]` is the number of them, then each."""
 _ANSWERS = (MeshFile, *FRAMES)
-_MISSING = "a package that reads such files is missing: pip install 'bsm-codec[formats,simulation,usd]'"
+_MISSING = (
+    "a package that reads such files is missing: pip install 'bsm-codec[formats,simulation,usd]'"
+)
 
 
 def leave(
-    memory: int, result: MeshFile | Frames | BsmError | None, ask: Callable[[int], None] = lambda size: None
+    memory: int,
+    result: MeshFile | Frames | BsmError | None,
+    ask: Callable[[int], None] = lambda size: None,
 ) -> None:
     """Leave a mesh, frames, an error or nothing in shared memory, after asking for the bytes that this takes."""
     rows, parts, total = list[bytes](), list[Any](), 0
@@ -73,7 +106,11 @@ def leave(
     data: Any
     for value in (_ANSWERS.index(form), *_flat(form, result)):
         if isinstance(value, np.ndarray):
-            kind, shape, data = str(value.dtype), value.shape, np.ascontiguousarray(value).reshape(-1).view(np.uint8)
+            kind, shape, data = (
+                str(value.dtype),
+                value.shape,
+                np.ascontiguousarray(value).reshape(-1).view(np.uint8),
+            )
         else:
             kind = next(kind for kind in _PLAIN if isinstance(value, kind))
             data = _PLAIN[kind][0](value)
@@ -100,7 +137,8 @@ def _flat(form: Any, value: Any) -> Iterator[Any]:
         yield from value
     elif value is not None and form in _PARTS:
         for name, part in _PARTS[form].items():
-            moving = form is Frames and name == "frames" and value.meshes is not None  # they are in the meshes
+            # They are in the meshes.
+            moving = form is Frames and name == "frames" and value.meshes is not None
             yield from _flat(part, () if moving else getattr(value, name))
     else:
         yield value.item() if isinstance(value, np.generic) else value
@@ -117,12 +155,16 @@ def found_in(memory: int, most: int, limits: Limits, accepted: tuple[type, ...])
     except LimitError:
         raise
     except MemoryError as error:
-        raise LimitError("the system has too little memory for the answer of the reading process") from error
+        raise LimitError(
+            "the system has too little memory for the answer of the reading process"
+        ) from error
     except Exception as error:
         raise FormatError("the process that read this file left no mesh") from error
     if isinstance(result, BsmError):
         # Not the words of the child: they may tell to install anything.
-        words = _MISSING if isinstance(result, errors.DependencyError) else result.message[:_MOST_WORDS]
+        words = (
+            _MISSING if isinstance(result, errors.DependencyError) else result.message[:_MOST_WORDS]
+        )
         result.message = " ".join(words.splitlines())
         raise result
     return result
@@ -158,7 +200,9 @@ def _made(form: Any, values: Iterator[Any], limits: Limits) -> Any:
         return value
     values_by_name = {name: _made(part, values, limits) for name, part in _PARTS[form].items()}
     values_by_name |= {
-        name: tuple(values_by_name[name]) for name in ("attributes", "notes", "dropped") if name in values_by_name
+        name: tuple(values_by_name[name])
+        for name in ("attributes", "notes", "dropped")
+        if name in values_by_name
     }
     if form in (TriangleMesh, Frames):
         _check(values_by_name, limits)
@@ -168,12 +212,23 @@ def _made(form: Any, values: Iterator[Any], limits: Limits) -> Any:
 def _check(fields: dict[str, Any], limits: Limits) -> None:
     """Check a mesh or frames before they are made, and bring their parts into the right kinds."""
     fields["metadata"], meshes = dict(fields["metadata"]), fields.get("meshes")
-    frames = fields.get("frames", [fields.get("positions")]) if meshes is None else [mesh.positions for mesh in meshes]
-    counts = {"vertices": max(fields.get("rigged", 0), *map(len, frames)), "faces": len(fields["faces"])}
+    frames = (
+        fields.get("frames", [fields.get("positions")])
+        if meshes is None
+        else [mesh.positions for mesh in meshes]
+    )
+    counts = {
+        "vertices": max(fields.get("rigged", 0), *map(len, frames)),
+        "faces": len(fields["faces"]),
+    }
     require_counts(limits, **counts, frames=len(frames))
-    kinds = {fields["faces"].dtype.name, *(f"{frame.dtype} of {frame.shape[1]}" for frame in frames)}
+    kinds = {
+        fields["faces"].dtype.name,
+        *(f"{frame.dtype} of {frame.shape[1]}" for frame in frames),
+    }
     # Checked here since the classes convert what they get: a million objects in place of numbers would be copied first.
-    if kinds != {"int32", "float64 of 3"} or fields.get("count", 0) not in (0, len(frames)):  # 0: it is not known
+    # 0: it is not known.
+    if kinds != {"int32", "float64 of 3"} or fields.get("count", 0) not in (0, len(frames)):
         raise ValueError("arrays of another kind")
     if "meshes" in fields:
         fields["faces"] = TriangleMesh(frames[0], fields["faces"]).faces

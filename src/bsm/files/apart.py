@@ -31,18 +31,27 @@ Surface: TypeAlias = tuple[Polygons, tuple[float, ...]]
 
 
 def surface_of(
-    path: str, kind: str, limits: Limits, step: int | None = None, with_sets: bool = True, *, here: bool = False
+    path: str,
+    kind: str,
+    limits: Limits,
+    step: int | None = None,
+    with_sets: bool = True,
+    *,
+    here: bool = False,
 ) -> Surface:
     """The surfaces in a file of VTK as a frame, or at rest without a step, and its times; `here`: in this process."""
     request = os.path.abspath(path), kind, limits, step
     if here:
-        module = imported("bsm.files.formats.with_vtk", f".{kind} files are read with VTK", "simulation")
+        module = imported(
+            "bsm.files.formats.with_vtk", f".{kind} files are read with VTK", "simulation"
+        )
         refuse_outside(path, kind, limits, closed=landlock.lack() is None)
         surface: Surface = module.read_vtk(*request, with_sets=with_sets)
         return surface
     with _TURN:
         answer = _answer(*request)
-        if answer is None:  # in a fresh process, and without the sets of Exodus, at which VTK may crash
+        # In a fresh process, and without the sets of Exodus, at which VTK may crash.
+        if answer is None:
             answer = _answer(*request, False)
     if answer is None:
         raise FormatError("reading this file crashed VTK")
@@ -66,22 +75,34 @@ def _answer(*request: Any) -> Surface | BsmError | None:
     return answer
 
 
-def frames_of(path: str, kind: str, request: Wanted, limits: Limits, *, here: bool = False) -> Frames | None:
+def frames_of(
+    path: str, kind: str, request: Wanted, limits: Limits, *, here: bool = False
+) -> Frames | None:
     """The steps in a file of VTK as frames; None if it has fewer than two."""
     _, times = surface_of(path, kind, limits, here=here)
     size = os.path.getsize(path)
-    return read_steps(lambda step: surface_of(path, kind, limits, step, here=here)[0], times, size, request, limits)
+    return read_steps(
+        lambda step: surface_of(path, kind, limits, step, here=here)[0],
+        times,
+        size,
+        request,
+        limits,
+    )
 
 
 @cache
 def _process() -> Any:
     if not Path(sys.executable or "").name.lower().startswith(("python", "pypy")):
-        raise UnsupportedError("files of VTK are read in a process of their own, and sys.executable is not Python")
+        raise UnsupportedError(
+            "files of VTK are read in a process of their own, and sys.executable is not Python"
+        )
     package_folder = str(Path(sys.modules["bsm"].__file__ or "").parents[1])
     paths = os.pathsep.join(filter(None, (package_folder, os.environ.get("PYTHONPATH", ""))))
     pipes: Any = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "stderr": subprocess.DEVNULL}
     # A program and not multiprocessing: its spawn would run the user's main module again, and fork copies held locks.
-    begun = subprocess.Popen([sys.executable, "-P", "-c", _COMMAND], env={**os.environ, "PYTHONPATH": paths}, **pipes)
+    begun = subprocess.Popen(
+        [sys.executable, "-P", "-c", _COMMAND], env={**os.environ, "PYTHONPATH": paths}, **pipes
+    )
     # Otherwise Popen warns at exit of a process that still runs.
     atexit.register(_end, begun)
     return begun

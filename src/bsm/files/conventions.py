@@ -63,7 +63,9 @@ def to_linear(shares: Array) -> Doubles:
     linear = np.array(shares, np.float64)
     c = linear[..., :3]
     # The curve of IEC 61966-2-1. A plain power of 2.2 would be off by some levels in the dark.
-    linear[..., :3] = np.where(c <= 0.04045, c / 12.92, ((np.maximum(c, 0.0) + 0.055) / 1.055) ** 2.4)
+    linear[..., :3] = np.where(
+        c <= 0.04045, c / 12.92, ((np.maximum(c, 0.0) + 0.055) / 1.055) ** 2.4
+    )
     return linear
 
 
@@ -71,7 +73,9 @@ def to_srgb(shares: Array) -> Doubles:
     """Return linear colors in sRGB; a fourth column is an opacity, which stays."""
     colors = np.array(shares, np.float64)
     c = colors[..., :3]
-    colors[..., :3] = np.where(c <= 0.0031308, c * 12.92, 1.055 * np.maximum(c, 1e-9) ** (1 / 2.4) - 0.055)
+    colors[..., :3] = np.where(
+        c <= 0.0031308, c * 12.92, 1.055 * np.maximum(c, 1e-9) ** (1 / 2.4) - 0.055
+    )
     return colors
 
 

@@ -11,8 +11,12 @@ from bsm.bitstream.errors import OptionError, imported
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.files.formats.metadata import images_in, kind_of_image
 
-_PNG_OR_JPEG = re.compile(rb"\A\x89PNG.{12}(.{4})(.{4})|\xff[\xc0-\xc2]\0[\x0b\x11\x14]\x08(..)(..)", re.DOTALL)
-_WEBP = re.compile(rb"RIFF.{4}WEBP(?:VP8X.{8}(...)(...)|VP8 .{7}\x9d\x01\x2a(..)(..)|VP8L.{4}/(.{4}))", re.DOTALL)
+_PNG_OR_JPEG = re.compile(
+    rb"\A\x89PNG.{12}(.{4})(.{4})|\xff[\xc0-\xc2]\0[\x0b\x11\x14]\x08(..)(..)", re.DOTALL
+)
+_WEBP = re.compile(
+    rb"RIFF.{4}WEBP(?:VP8X.{8}(...)(...)|VP8 .{7}\x9d\x01\x2a(..)(..)|VP8L.{4}/(.{4}))", re.DOTALL
+)
 LANCZOS = 1  # of Pillow: how images become smaller or larger
 WORTH = 0.9  # of the bytes of an image: above, its loss of quality buys too little
 MOST_PIXELS = 1 << 26  # of an image that is written anew
@@ -32,9 +36,13 @@ class ImageRule:
         """The rule that "webp", "webp:85" or "webp:85@1024" says."""
         match = re.fullmatch(r"(webp|jpeg|png)(?::(\d{1,3}))?(?:@(\d{1,5}))?", text)
         if match and not 1 <= int(match[2] or 85) <= 100:
-            raise OptionError(f"the quality of images is from 1 to 100, not {match[2]}: {match[1]}:85 is usual")
+            raise OptionError(
+                f"the quality of images is from 1 to 100, not {match[2]}: {match[1]}:85 is usual"
+            )
         if not match:
-            raise OptionError(f"images are written as webp, webp:85 or webp:85@1024 (jpeg, png, too), not as {text!r}")
+            raise OptionError(
+                f"images are written as webp, webp:85 or webp:85@1024 (jpeg, png, too), not as {text!r}"
+            )
         return cls(match[1], int(match[2] or 85), int(match[3] or 0))
 
 
@@ -72,7 +80,9 @@ def _written(image: Any, rule: ImageRule) -> bytes | None:
         size = (max(1, round(image.width * factor)), max(1, round(image.height * factor)))
         image = image.resize(size, LANCZOS)
     written = io.BytesIO()
-    image.save(written, rule.kind, quality=rule.quality, **({"method": 6} if rule.kind == "webp" else {}))
+    image.save(
+        written, rule.kind, quality=rule.quality, **({"method": 6} if rule.kind == "webp" else {})
+    )
     return written.getvalue()
 
 
@@ -86,7 +96,9 @@ def with_smaller_images(metadata: Metadata, rule: ImageRule) -> Metadata:
         entries[f"image.{number}.data"] = written
         if name:
             new_name = str(PurePath(name).with_suffix(f".{rule.kind}"))
-            entries[f"image.{number}.name"] = new_name if new_name not in names - {name} else f"{name}.{rule.kind}"
+            entries[f"image.{number}.name"] = (
+                new_name if new_name not in names - {name} else f"{name}.{rule.kind}"
+            )
     return entries
 
 
@@ -98,10 +110,16 @@ def side_of_image(data: bytes) -> int:
 def size_of_image(data: bytes) -> tuple[int, int]:
     """Return the width and height of a PNG, JPEG or WebP in pixels; 0 for others."""
     if match := _WEBP.match(data):
-        wide, high, *plain, packed = (int.from_bytes(number or b"", "little") for number in match.groups())
+        wide, high, *plain, packed = (
+            int.from_bytes(number or b"", "little") for number in match.groups()
+        )
         if match[3]:
             return plain[0] & 0x3FFF, plain[1] & 0x3FFF
-        return (wide + 1, high + 1) if match[1] else (1 + (packed & 0x3FFF), 1 + (packed >> 14 & 0x3FFF))
+        return (
+            (wide + 1, high + 1)
+            if match[1]
+            else (1 + (packed & 0x3FFF), 1 + (packed >> 14 & 0x3FFF))
+        )
     signed = data.startswith((b"\x89PNG", b"\xff\xd8"))  # a JPEG may contain a smaller one
     segments = _PNG_OR_JPEG.findall(data) if signed else ()
     sizes = (
@@ -132,7 +150,9 @@ def digests_in(metadata: Metadata) -> set[str]:
     return {_digest(data) for _, data in images_in(metadata).values() if data}
 
 
-def with_links(metadata: Metadata, way: str, chosen: tuple[str, ...]) -> tuple[Metadata, dict[str, bytes]]:
+def with_links(
+    metadata: Metadata, way: str, chosen: tuple[str, ...]
+) -> tuple[Metadata, dict[str, bytes]]:
     """Return metadata that links to the chosen images, or to all, in a folder a way off, and these files by name."""
     entries, files = dict(metadata), dict[str, bytes]()
     for number, (_, data) in images_in(metadata).items():

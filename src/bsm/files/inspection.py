@@ -68,8 +68,10 @@ class StreamInfo:
     coefficients: tuple[int, ...]
     gops: tuple[GopInfo, ...]
     attributes: tuple[AttributeInfo, ...]
-    sizes: dict[str, int]  # bytes by what they carry, "framing" nothing of all that; "total" is the whole
-    positions: dict[str, int]  # bytes of positions by kind, see `KINDS_OF_POSITIONS`; they add up to "coefficients"
+    # Bytes by what they carry, "framing" nothing of all that; "total" is the whole.
+    sizes: dict[str, int]
+    # Bytes of positions by kind, see `KINDS_OF_POSITIONS`; they add up to "coefficients".
+    positions: dict[str, int]
     runs: tuple[RunInfo, ...]
     checksum: int | None  # of decoded positions
     version: int
@@ -92,9 +94,24 @@ class StreamInfo:
         plain = not (header.key_interval or header.smoothing or header.refinement or header.grid)
         # Overlaps have no mark in a header. They make the blocks' sizes sum up to more than the vertices, by 15 % or
         # more with the paper's overlap.
-        grown = self.sizes["partition"] and header.blocks * (header.block_size + 0.5) >= 1.15 * header.vertices
-        settings = how.bits, how.exact, how.power, how.iterations, how.shift, how.springs, header.onorm
-        return plain and settings == (12, 1, 2, 1, 2.0**-7, 0, 2) and (header.blocks == 1 or bool(grown))
+        grown = (
+            self.sizes["partition"]
+            and header.blocks * (header.block_size + 0.5) >= 1.15 * header.vertices
+        )
+        settings = (
+            how.bits,
+            how.exact,
+            how.power,
+            how.iterations,
+            how.shift,
+            how.springs,
+            header.onorm,
+        )
+        return (
+            plain
+            and settings == (12, 1, 2, 1, 2.0**-7, 0, 2)
+            and (header.blocks == 1 or bool(grown))
+        )
 
     def bpv(self, carried: str = "total") -> float:
         return 8 * self.sizes[carried] / self.header.vertices
@@ -163,7 +180,9 @@ def inspect_stream(chunks: Iterable[bytes], limits: Limits = DEFAULT_LIMITS) -> 
                 # Asked for at once: the engine only holds the header of the latest run.
                 headers.append(header := skimmer.header)
                 mesh = header.run_number if header.mesh_of is None else header.mesh_of
-                runs.append(RunInfo(sum(gop.frames for gop in gops), 0, header.vertices, header.faces, mesh))
+                runs.append(
+                    RunInfo(sum(gop.frames for gop in gops), 0, header.vertices, header.faces, mesh)
+                )
             case FrameType.METADATA:
                 entries = packet.entries
                 sizes["metadata"] += packet.payload
@@ -180,7 +199,9 @@ def inspect_stream(chunks: Iterable[bytes], limits: Limits = DEFAULT_LIMITS) -> 
                 if carried in POSITIONS:
                     cells, *_ = headers[0].base or (0,)
                     of_cells = carried == FrameType.REFINEMENT and levels < cells
-                    positions[LEVELS_OF_CELLS if of_cells else POSITIONS[FrameType(carried)]] += packet.data
+                    positions[LEVELS_OF_CELLS if of_cells else POSITIONS[FrameType(carried)]] += (
+                        packet.data
+                    )
         if packet.type == FrameType.REFINEMENT:
             levels += packet.count
         if packet.type == FrameType.BLOCK:
@@ -195,11 +216,27 @@ def inspect_stream(chunks: Iterable[bytes], limits: Limits = DEFAULT_LIMITS) -> 
     sizes |= {"framing": total - sum(sizes.values()), "total": total}
     numbers, run_table = tuple(coefficients), tuple(runs) if headers[0].gop_frames else ()
     return StreamInfo(
-        headers[0], metadata, numbers, tuple(gops), attributes, sizes, positions, run_table, checksum, version, brief
+        headers[0],
+        metadata,
+        numbers,
+        tuple(gops),
+        attributes,
+        sizes,
+        positions,
+        run_table,
+        checksum,
+        version,
+        brief,
     )
 
 
-_CODINGS = {LEVELS: "levels", OCTAHEDRAL: "octahedral", BITS: "bits", RECOMPUTED: "recomputed", TANGENTS: "tangents"}
+_CODINGS = {
+    LEVELS: "levels",
+    OCTAHEDRAL: "octahedral",
+    BITS: "bits",
+    RECOMPUTED: "recomputed",
+    TANGENTS: "tangents",
+}
 
 
 def _attribute_info(packet: SkimmedPacket, size: int) -> AttributeInfo:
@@ -207,7 +244,9 @@ def _attribute_info(packet: SkimmedPacket, size: int) -> AttributeInfo:
     if packet.moves:
         coding = "moving levels"
     meanings = DOMAINS[packet.domain], SEMANTICS[packet.semantic], KINDS[packet.kind]
-    return AttributeInfo(packet.name, *meanings, packet.components, packet.rows, coding, packet.data, size)
+    return AttributeInfo(
+        packet.name, *meanings, packet.components, packet.rows, coding, packet.data, size
+    )
 
 
 def summarize_stream(info: StreamInfo) -> dict[str, Any]:
@@ -253,5 +292,7 @@ def summarize_stream(info: StreamInfo) -> dict[str, Any]:
             name: base64.b64encode(value).decode() if isinstance(value, bytes) else value
             for name, value in info.metadata.items()
         },
-        "metadata_bytes": {n: len(value) for n, value in info.metadata.items() if isinstance(value, bytes)},
+        "metadata_bytes": {
+            n: len(value) for n, value in info.metadata.items() if isinstance(value, bytes)
+        },
     }

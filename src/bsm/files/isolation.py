@@ -43,15 +43,20 @@ from bsm.files.table import FORMATS, MESH_FORMATS, load_modules
 _COMMAND = "from bsm.files.isolation import serve; serve({number})"
 End: TypeAlias = tuple[int, int, float, bytes]
 _MEMORY, _WRITTEN = resource.RLIMIT_AS, resource.RLIMIT_FSIZE
-_END = struct.Struct("<iQd4096s")  # a status, the most memory, processor seconds, and last words, that come back
+# A status, the most memory, processor seconds, and last words, that come back.
+_END = struct.Struct("<iQd4096s")
 _ROOM = 1 << 20  # bytes of an answer that a child need not ask for, in addition to its memory
 _OF_THIS_PROCESS = re.compile("/dev/(fd/|std)|/proc/")
-_SMALLEST = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"  # a file that has been read, so that the next is read sooner
+# A file that has been read, so that the next is read sooner.
+_SMALLEST = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
 _PATIENCE = 10  # times its processor time that a child may take, since the machine may be busy
 _WRITING = 0o1103  # flags of open: O_WRONLY, O_RDWR, O_CREAT, O_TRUNC
-_QUESTIONS = {"ioctl": (0x5401, 0x5451), "fcntl": (1, 2, 3, 1030)}  # TCGETS, FIOCLEX; F_GETFD to _GETFL, _DUPFD_CLOEXEC
+# TCGETS, FIOCLEX; F_GETFD to _GETFL, _DUPFD_CLOEXEC.
+_QUESTIONS = {"ioctl": (0x5401, 0x5451), "fcntl": (1, 2, 3, 1030)}
 _REFUSED = 3000  # and the number of a call: the error of one that is refused
-_QUIET = dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "PXR_WORK_THREAD_LIMIT", "MALLOC_ARENA_MAX"), "1")
+_QUIET = dict.fromkeys(
+    ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "PXR_WORK_THREAD_LIMIT", "MALLOC_ARENA_MAX"), "1"
+)
 _QUIET |= {"HDF5_USE_FILE_LOCKING": "FALSE"}
 
 
@@ -61,11 +66,19 @@ def read_isolated(source: Input, file_format: str | None, limits: Limits, kind: 
 
 
 def frames_isolated(
-    source: Input | Sequence[str], file_format: str | None, limits: Limits, kind: str, request: Wanted | None
+    source: Input | Sequence[str],
+    file_format: str | None,
+    limits: Limits,
+    kind: str,
+    request: Wanted | None,
 ) -> Any:
     """The `Frames` that a process of its own reads, or None; errors as of `open_sequence`."""
     beside = os.path.abspath(request.mesh) if request and request.mesh else None
-    extra_fields = {"sequence": True, "wanted": request and {**asdict(request), "mesh": beside}, "beside": beside}
+    extra_fields = {
+        "sequence": True,
+        "wanted": request and {**asdict(request), "mesh": beside},
+        "beside": beside,
+    }
     return _read_there(source, file_format, limits, kind, FRAMES, **extra_fields)
 
 
@@ -80,9 +93,16 @@ def _read_there(
     data, names = b"", [] if isinstance(source, Input) else list(source)
     if isinstance(source, Input):
         # A path of this process (/dev/fd/3, ...) means another file in the child, so its bytes are sent instead.
-        path = os.path.abspath(source.name) if source.is_file and not _OF_THIS_PROCESS.match(source.name) else None
-        data, names, extra_fields["name"] = (b"", [path], source.name) if path else (source.read_all(), [], source.name)
-        file_format = file_format if landlock.lack() is None else file_format or kind or None  # others never come here
+        path = (
+            os.path.abspath(source.name)
+            if source.is_file and not _OF_THIS_PROCESS.match(source.name)
+            else None
+        )
+        data, names, extra_fields["name"] = (
+            (b"", [path], source.name) if path else (source.read_all(), [], source.name)
+        )
+        # Others never come here.
+        file_format = file_format if landlock.lack() is None else file_format or kind or None
     size = len(data) + sum(map(os.path.getsize, names))
     seconds = math.ceil(min(limits.work_for(limits.vertices, size) / 1e9, 1e6))
     extra_fields |= {
@@ -102,7 +122,9 @@ def _read_there(
 
 
 def _too_little(request: dict[str, Any]) -> LimitError:
-    return LimitError(f"reading takes more than {request['memory']:,} bytes of memory (Limits.memory, ulimit -v)")
+    return LimitError(
+        f"reading takes more than {request['memory']:,} bytes of memory (Limits.memory, ulimit -v)"
+    )
 
 
 def _end_of(number: int, words: bytes, request: dict[str, Any]) -> BsmError:
@@ -111,12 +133,18 @@ def _end_of(number: int, words: bytes, request: dict[str, Any]) -> BsmError:
     if number == signal.SIGABRT and b"bad_alloc" in words:
         return _too_little(request)
     if number == signal.SIGXCPU:
-        return LimitError(f"reading takes more than {request['seconds']} s of processor time (Limits.work, ulimit -t)")
+        return LimitError(
+            f"reading takes more than {request['seconds']} s of processor time (Limits.work, ulimit -t)"
+        )
     if number == signal.SIGALRM:
         return LimitError(f"reading this file takes more than {_PATIENCE * request['seconds']} s")
     if number == signal.SIGKILL:
-        return LimitError("the process that read this file was ended: the system has too little memory")
-    return FormatError(f"reading this file crashed the library that reads it ({signal.strsignal(number)})")
+        return LimitError(
+            "the process that read this file was ended: the system has too little memory"
+        )
+    return FormatError(
+        f"reading this file crashed the library that reads it ({signal.strsignal(number)})"
+    )
 
 
 @contextmanager
@@ -139,18 +167,24 @@ class _Server:
 
     def __init__(self) -> None:
         self._socket, there = socket.socketpair()
-        paths = (str(Path(importlib.import_module("bsm").__file__ or "").parents[1]), os.environ.get("PYTHONPATH", ""))
+        paths = (
+            str(Path(importlib.import_module("bsm").__file__ or "").parents[1]),
+            os.environ.get("PYTHONPATH", ""),
+        )
         known = {name: os.environ[name] for name in ("PATH", "LANG", "HOME") if name in os.environ}
         # Not the whole environment: it holds keys of clouds and other secrets, which a reader that has been taken over
         # could put into the answer.
         environment = known | _QUIET | {"PYTHONPATH": os.pathsep.join(filter(None, paths))}
         if not re.match("python|pypy", os.path.basename(sys.executable or "")):
-            raise FileNotFoundError("sys.executable is not Python")  # but a program that has Python in it
+            # But a program that has Python in it.
+            raise FileNotFoundError("sys.executable is not Python")
         # -P keeps the current folder out of sys.path: a file there called like a module would be run otherwise.
         command = [sys.executable, "-P", "-c", _COMMAND.format(number=there.fileno())]
         nothing: Any = dict.fromkeys(("stdin", "stdout", "stderr"), subprocess.DEVNULL)
         with there:
-            self.process = subprocess.Popen(command, pass_fds=[there.fileno()], env=environment, **nothing)
+            self.process = subprocess.Popen(
+                command, pass_fds=[there.fileno()], env=environment, **nothing
+            )
 
     def __del__(self) -> None:
         self._socket.close()
@@ -185,7 +219,9 @@ def end_of_child(memory: int) -> End:
         _server.cache_clear()
         return _server().read(memory)
     except OSError as error:
-        raise UnsupportedError(f"the process that reads files from strangers does not start: {error}") from error
+        raise UnsupportedError(
+            f"the process that reads files from strangers does not start: {error}"
+        ) from error
 
 
 def serve(number: int) -> None:
@@ -237,13 +273,16 @@ def _watch(answer: int, memory: int, request: dict[str, Any], begin: int) -> Non
         with here:
             _grant(child, here)
         _, status, used = os.wait4(child, 0)
-        status = status if signal.alarm(0) else signal.SIGALRM  # for a child may stop itself, or ignore that signal
+        # For a child may stop itself, or ignore that signal.
+        status = status if signal.alarm(0) else signal.SIGALRM
         with suppress(ProcessLookupError):
             os.killpg(child, signal.SIGKILL)
         last = b""
         with suppress(BlockingIOError):
             last = os.read(words, 1 << 16)[-4096:]
-        os.write(answer, _END.pack(status, used.ru_maxrss << 10, used.ru_utime + used.ru_stime, last))
+        os.write(
+            answer, _END.pack(status, used.ru_maxrss << 10, used.ru_utime + used.ru_stime, last)
+        )
     finally:
         # Not sys.exit: this process is a copy of the server, whose exit handlers must not run here.
         os._exit(0)
@@ -253,7 +292,9 @@ def _grant(child: int, asks: socket.socket) -> None:
     """Let a child write an answer of the size that it asks for, once, if it can do with so much less memory."""
     size = int.from_bytes(asks.recv(8, socket.MSG_WAITALL), "little")
     with suppress(OSError):  # the child may have ended
-        (most, hard), (_, largest) = (resource.prlimit(child, limit) for limit in (_MEMORY, _WRITTEN))
+        (most, hard), (_, largest) = (
+            resource.prlimit(child, limit) for limit in (_MEMORY, _WRITTEN)
+        )
         if granted := size <= largest:
             resource.prlimit(child, _MEMORY, (most - size, hard))
             granted = _held(child) <= most - size
@@ -306,7 +347,9 @@ def _called(request: dict[str, Any]) -> MeshFile | Frames | None:
     if not names:
         source.name = request["name"]
     if request.get("sequence"):
-        return sequence.open_sequence(source, arguments[0], sequence_request, arguments[1], isolated=False)
+        return sequence.open_sequence(
+            source, arguments[0], sequence_request, arguments[1], isolated=False
+        )
     return mesh.read_mesh(source, *arguments, isolated=False)
 
 
@@ -325,7 +368,9 @@ def _confine(request: dict[str, Any]) -> None:
         soft, hard = resource.getrlimit(limit)  # of where this runs, which may be less
         resource.setrlimit(limit, (_least(most, soft), _least(longest, hard)))
     if landlock.lack() is None:
-        landlock.close_files(landlock.folders_of(filter(None, [*request["names"], request.get("beside")])))
+        landlock.close_files(
+            landlock.folders_of(filter(None, [*request["names"], request.get("beside")]))
+        )
     _close_calls()
 
 
@@ -339,20 +384,34 @@ def _close_calls() -> None:
     """Let the kernel refuse all calls but those of reading, by a filter."""
     if platform.machine() not in landlock.PROCESSORS:
         return  # `lack` says so
-    code = ctypes.create_string_buffer(b"".join(struct.pack("<HBBI", *step) for step in _filter(os.getpid())))
-    program = ctypes.create_string_buffer(struct.pack("@HP", len(code) // 8, ctypes.addressof(code)))
+    code = ctypes.create_string_buffer(
+        b"".join(struct.pack("<HBBI", *step) for step in _filter(os.getpid()))
+    )
+    program = ctypes.create_string_buffer(
+        struct.pack("@HP", len(code) // 8, ctypes.addressof(code))
+    )
     control = ctypes.CDLL(None, use_errno=True).prctl
     control.argtypes = (ctypes.c_int, *4 * (ctypes.c_ulong,))
-    for call in ((1, signal.SIGKILL, 0, 0, 0), (38, 1, 0, 0, 0), (22, 2, ctypes.addressof(program), 0, 0)):
+    for call in (
+        (1, signal.SIGKILL, 0, 0, 0),
+        (38, 1, 0, 0, 0),
+        (22, 2, ctypes.addressof(program), 0, 0),
+    ):
         if control(*call):
-            raise UnsupportedError(f"the kernel does not filter calls: {os.strerror(ctypes.get_errno())}")
+            raise UnsupportedError(
+                f"the kernel does not filter calls: {os.strerror(ctypes.get_errno())}"
+            )
 
 
 def _filter(process: int) -> Iterator[tuple[int, int, int, int]]:
     """The steps of a filter: an operation, how many steps to skip if true and if false, and a number."""
     load, equal, any_bit, at_least, add, end, end_so = 0x20, 0x15, 0x45, 0x35, 0x04, 0x06, 0x16
     allowed, killed, failed = (end, 0, 0, 0x7FFF0000), (end, 0, 0, 0x80000000), 0x50000 + _REFUSED
-    call, processor, arguments = (load, 0, 0, 0), (load, 0, 0, 4), [(load, 0, 0, 16 + 8 * place) for place in range(3)]
+    call, processor, arguments = (
+        (load, 0, 0, 0),
+        (load, 0, 0, 4),
+        [(load, 0, 0, 16 + 8 * place) for place in range(3)],
+    )
     # The processor is compared first: the numbers of calls differ between the two that one kernel serves, and those of
     # 32 bits would pass a filter for 64.
     yield from (
@@ -373,7 +432,11 @@ def _filter(process: int) -> Iterator[tuple[int, int, int, int]]:
             steps = [arguments[0], (equal, 0, 1, process), allowed, call]
         elif name in _QUESTIONS:
             conditions = ((equal, 0, 1, one) for one in _QUESTIONS[name])
-            steps = [arguments[1], *itertools.chain.from_iterable((one, allowed) for one in conditions), call]
+            steps = [
+                arguments[1],
+                *itertools.chain.from_iterable((one, allowed) for one in conditions),
+                call,
+            ]
         yield from ((equal, 0, len(steps), number), *steps)
     # A refused call returns an error that names its number, above all errors of the kernel, and does not kill:
     # libraries try calls that they can do without.
@@ -385,14 +448,20 @@ def _calls() -> dict[int, tuple[str, bool]]:
     """Calls of the kernel by their numbers, and whether reading may make them; for a server, before it reads files."""
     rows = csv.DictReader(Path(__file__).with_name("calls.csv").read_text().splitlines())
     machine = platform.machine()
-    return {int(row[machine]): (row["call"], row["allowed"] == "yes") for row in rows if row.get(machine)}
+    return {
+        int(row[machine]): (row["call"], row["allowed"] == "yes")
+        for row in rows
+        if row.get(machine)
+    }
 
 
 def _named(words: str) -> str:
     """A message with the names of refused calls in place of the numbers of their errors."""
 
     def named(match: re.Match[str]) -> str:
-        name, _ = _calls().get(int(match[1]) - _REFUSED, (f"number {int(match[1]) - _REFUSED}", False))
+        name, _ = _calls().get(
+            int(match[1]) - _REFUSED, (f"number {int(match[1]) - _REFUSED}", False)
+        )
         return f"reading may not call {name} of the kernel"
 
     return re.sub(r"Unknown error (3\d\d\d)", named, words)

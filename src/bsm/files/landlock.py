@@ -33,7 +33,9 @@ def lack() -> str | None:
 
 def folders_of(paths: Iterable[str]) -> set[str]:
     """Return the folders of files, and of the targets of links."""
-    return {os.path.dirname(way(path)) for path in paths for way in (os.path.abspath, os.path.realpath)}
+    return {
+        os.path.dirname(way(path)) for path in paths for way in (os.path.abspath, os.path.realpath)
+    }
 
 
 # Landlock takes only a list of allowed paths. Python and its packages must still be loaded, and a mesh may name other
@@ -46,7 +48,9 @@ def close_files(folders: set[str]) -> None:
     with landlock.Ruleset(scoped=scope) as rules:
         for path in itertools.chain(libraries(), folders):
             with suppress(OSError):  # the folder may have been removed meanwhile
-                rules.allow_path(path, read_rights if os.path.isdir(path) else landlock.AccessFS.READ_FILE)
+                rules.allow_path(
+                    path, read_rights if os.path.isdir(path) else landlock.AccessFS.READ_FILE
+                )
         rules.restrict()
 
 
@@ -56,6 +60,10 @@ def libraries() -> tuple[str, ...]:
     """Return the folders of Python, of packages and of libraries; not all of `sys.path`, where a checkout may be."""
     installed = {path for path in sys.path if Path(path).name in ("site-packages", "dist-packages")}
     python = {sysconfig.get_path(name) for name in ("stdlib", "platstdlib", "purelib", "platlib")}
-    loaded = {path for module in list(sys.modules.values()) for path in list(getattr(module, "__path__", ()))}
+    loaded = {
+        path
+        for module in list(sys.modules.values())
+        for path in list(getattr(module, "__path__", ()))
+    }
     system = {"/usr", "/lib", "/lib64", "/etc/ld.so.cache", "/dev/null", "/dev/urandom"}
     return tuple(filter(os.path.exists, installed | python | loaded | system))

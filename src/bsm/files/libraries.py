@@ -35,12 +35,16 @@ def warn(notes: Iterable[str]) -> None:
     """Warn of changes and losses, in the line of the user's code that called `bsm`; commands print notes instead.
 
     The logger `bsm` gets each note, too."""
-    modules = [str(frame.f_globals.get("__name__", "")) for frame, _ in walk_stack(sys._getframe(1))]
+    modules = [
+        str(frame.f_globals.get("__name__", "")) for frame, _ in walk_stack(sys._getframe(1))
+    ]
     if any(name.startswith(_WITH_NOTES) for name in modules):
         return
     # Modules of Python count as ours: contextlib and functools stand between bsm and its caller.
     ours = {"bsm", *sys.stdlib_module_names} - {"__main__"}
-    level = next((level for level, name in enumerate(modules, 2) if name.partition(".")[0] not in ours), 2)
+    level = next(
+        (level for level, name in enumerate(modules, 2) if name.partition(".")[0] not in ours), 2
+    )
     for note in notes:
         _log(note)
         warnings.warn(note, BsmWarning, stacklevel=level)
@@ -73,7 +77,11 @@ def as_mesh(mesh: Any) -> TriangleMesh:
 def as_file(mesh: Any) -> Input | None:
     """The input that a path, bytes or a file is; None: an object of a library, some of which have a `read`, too."""
     is_source = isinstance(mesh, (str, bytes, bytearray, memoryview, os.PathLike, Input))
-    return as_input(mesh) if is_source or (hasattr(mesh, "read") and _attribute(mesh, _POINTS) is None) else None
+    return (
+        as_input(mesh)
+        if is_source or (hasattr(mesh, "read") and _attribute(mesh, _POINTS) is None)
+        else None
+    )
 
 
 def _of_library(mesh: Any) -> MeshFile:
@@ -109,7 +117,11 @@ def read_any(source: Input, **reading: Any) -> TriangleMesh:
         mesh = decode_whole(source.chunks(), reading.get("limits", DEFAULT_LIMITS))
         if not source.name:
             return mesh
-        warn(f"{source.name}: {image.note}" for image in linked_images(mesh.metadata, source.name) if image.fault)
+        warn(
+            f"{source.name}: {image.note}"
+            for image in linked_images(mesh.metadata, source.name)
+            if image.fault
+        )
         return with_linked_images(mesh, source.name)
     contents = read_mesh(source, **reading)
     warn(f"{source.name}: {note}" if source.name else note for note in contents.notes)
@@ -138,13 +150,17 @@ def _of_arrays(positions: Any, faces: Any) -> MeshFile:
     return _of_polygons(positions, sizes, corners).checked(DEFAULT_LIMITS)
 
 
-def _of_polygons(positions: Any, sizes: Ints, corners: Array, columns: Sequence[Column] = ()) -> Polygons:
+def _of_polygons(
+    positions: Any, sizes: Ints, corners: Array, columns: Sequence[Column] = ()
+) -> Polygons:
     points = as_array(positions, "positions", np.float64)
     if points.ndim != 2 or points.shape[1] != 3:
         raise MeshError(f"positions must have shape (n, 3), not {points.shape}")
     if corners.dtype.kind not in "iu":
         raise MeshError(f"faces must be integers, not {corners.dtype}")
-    return Polygons(points, sizes.astype(np.int64), corners.astype(np.int64), columns=tuple(columns))
+    return Polygons(
+        points, sizes.astype(np.int64), corners.astype(np.int64), columns=tuple(columns)
+    )
 
 
 def _split(flat: Ints) -> tuple[Ints, Ints]:
@@ -163,14 +179,23 @@ def _of_pyvista(mesh: Any) -> Polygons:
     from bsm.files.formats.cells import columns_of
 
     losses = {name: None for name in ("verts", "lines", "strips") if getattr(mesh, f"n_{name}")}
-    first, last = mesh.n_verts + mesh.n_lines, mesh.n_cells - mesh.n_strips  # cells are points and lines, too
+    # Cells are points and lines, too.
+    first, last = mesh.n_verts + mesh.n_lines, mesh.n_cells - mesh.n_strips
     cells = {name: values[first:last] for name, values in mesh.cell_data.items()}
-    normals, texcoords = mesh.point_data.active_normals_name, mesh.point_data.active_texture_coordinates_name
+    normals, texcoords = (
+        mesh.point_data.active_normals_name,
+        mesh.point_data.active_texture_coordinates_name,
+    )
     active: dict[str, Semantic] = {normals: "normal", texcoords: "texcoord"}
-    columns = [*columns_of(mesh.point_data, "vertex", losses, active), *columns_of(cells, "face", losses)]
+    columns = [
+        *columns_of(mesh.point_data, "vertex", losses, active),
+        *columns_of(cells, "face", losses),
+    ]
     metadata, others = plain_fields(mesh.field_data)
     polygons = _of_polygons(mesh.points, *_split(np.array(mesh.faces, np.int64)), columns)
-    return replace(polygons, dropped=(*losses, *(f"field data {name}" for name in others)), metadata=metadata)
+    return replace(
+        polygons, dropped=(*losses, *(f"field data {name}" for name in others)), metadata=metadata
+    )
 
 
 def _of_open3d(mesh: Any) -> Polygons:
@@ -181,7 +206,10 @@ def _of_open3d(mesh: Any) -> Polygons:
     )
     if (materials := np.asarray(mesh.triangle_material_ids)).size:
         columns.append(Column("material", materials.reshape(-1, 1), "face"))
-    losses, faces = ("textures",) if len(getattr(mesh, "textures", ())) else (), np.asarray(mesh.triangles)
+    losses, faces = (
+        ("textures",) if len(getattr(mesh, "textures", ())) else (),
+        np.asarray(mesh.triangles),
+    )
     polygons = _of_polygons(mesh.vertices, np.full(len(faces), 3), faces.reshape(-1), columns)
     return replace(polygons, dropped=losses)
 
@@ -189,7 +217,10 @@ def _of_open3d(mesh: Any) -> Polygons:
 def _of_openmesh(mesh: Any) -> Polygons:
     """A `TriMesh` or `PolyMesh`: a face has a halfedge to each of its corners, and then -1."""
     try:
-        table, ends = np.atleast_2d(mesh.fh_indices()), np.asarray(mesh.halfedge_to_vertex_indices())
+        table, ends = (
+            np.atleast_2d(mesh.fh_indices()),
+            np.asarray(mesh.halfedge_to_vertex_indices()),
+        )
     except RuntimeError as error:  # deleted elements leave gaps
         raise MeshError(f"{str(error).rstrip('.')}: mesh.garbage_collection()") from error
     halfedges = table[table >= 0]
@@ -202,7 +233,9 @@ def _of_openmesh(mesh: Any) -> Polygons:
         ("normal", "vertex", held("vertex_normals")),
         ("color", "vertex", held("vertex_colors")),
         ("color", "face", held("face_colors")),
-        ("texcoord", "corner", uvs[halfedges]) if len(uvs) else ("texcoord", "vertex", held("vertex_texcoords2D")),
+        ("texcoord", "corner", uvs[halfedges])
+        if len(uvs)
+        else ("texcoord", "vertex", held("vertex_texcoords2D")),
     )
     return _of_polygons(mesh.points(), (table >= 0).sum(axis=1), ends[halfedges], columns)
 
@@ -210,7 +243,11 @@ def _of_openmesh(mesh: Any) -> Polygons:
 def _shown(*given: tuple[Semantic, Domain, Any]) -> list[Column]:
     """Columns of the values that there are."""
     tables = [(meaning, domain, np.array(values)) for meaning, domain, values in given]
-    return [named_column(meaning, compact(table), domain, meaning) for meaning, domain, table in tables if table.size]
+    return [
+        named_column(meaning, compact(table), domain, meaning)
+        for meaning, domain, table in tables
+        if table.size
+    ]
 
 
 def _by(module: str, name: str) -> Callable[[Any], Polygons]:

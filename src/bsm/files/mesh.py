@@ -14,7 +14,13 @@ from dataclasses import replace
 from pathlib import Path
 
 from bsm.bitstream.container.wire import MAGIC
-from bsm.bitstream.errors import BsmError, DependencyError, FormatError, OptionError, UnsupportedError
+from bsm.bitstream.errors import (
+    BsmError,
+    DependencyError,
+    FormatError,
+    OptionError,
+    UnsupportedError,
+)
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits, as_limits
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.files import landlock, pipes
@@ -42,12 +48,25 @@ _ALL = 1 << 62
 _GZIP = b"\x1f\x8b"
 _WAY = "convert it to GLB, OBJ, PLY or VTU first, with the program that made it"
 _FOREIGN = {
-    ("fbx", "blend", "abc", "3ds", "x3d", "wrl"): "convert it to GLB, OBJ or PLY first, for instance with Blender",
+    (
+        "fbx",
+        "blend",
+        "abc",
+        "3ds",
+        "x3d",
+        "wrl",
+    ): "convert it to GLB, OBJ or PLY first, for instance with Blender",
     ("gii",): "convert it to PLY or VTK, for instance with nibabel or mris_convert",
     ("frd",): "convert it to .vtu with ccx2paraview",
     ("unv", "med", "mesh"): "let Gmsh write it anew: gmsh FILE -save -o NEW.msh",
     ("op2", "d3plot"): "save it as .vtu, with pyNastran or, from LS-DYNA, with ParaView",
-    ("step", "stp", "iges", "igs", "brep"): "it holds surfaces; export triangles, for instance with FreeCAD",
+    (
+        "step",
+        "stp",
+        "iges",
+        "igs",
+        "brep",
+    ): "it holds surfaces; export triangles, for instance with FreeCAD",
     (
         "urdf",
         "sdf",
@@ -64,7 +83,11 @@ _FOREIGN = {
 
 
 def read_mesh(
-    source: Source, file_format: str | None = None, limits: Limits = DEFAULT_LIMITS, *, isolated: bool | None = None
+    source: Source,
+    file_format: str | None = None,
+    limits: Limits = DEFAULT_LIMITS,
+    *,
+    isolated: bool | None = None,
 ) -> MeshFile:
     """Read a mesh file.
 
@@ -111,7 +134,12 @@ def read_mesh(
 
 
 def read_cut(
-    source: Source, file_format: str | None, limits: Limits, cut: Cut | None, *, isolated: bool | None = None
+    source: Source,
+    file_format: str | None,
+    limits: Limits,
+    cut: Cut | None,
+    *,
+    isolated: bool | None = None,
 ) -> MeshFile:
     """Read a mesh file as `read_mesh` does, with a function that cuts its polygons."""
     input_source, limits = as_input(source), as_limits(limits)
@@ -141,7 +169,9 @@ def read_cut(
     # A reader's error about line 1 would say less.
     other_format = other_kind(data, kind) if row is not None and row.namesakes else ""
     if other_format and (kind, other_format) != ("glb", "JSON"):
-        raise FormatError(f"this is {other_format}, not .{kind}; give it the right name, or name its format")
+        raise FormatError(
+            f"this is {other_format}, not .{kind}; give it the right name, or name its format"
+        )
     if row is None or not row.reader or (kind in USD_FORMATS and not path):
         way = next((way for kinds, way in _FOREIGN.items() if kind in kinds), _WAY)
         what = f".{kind}" if kind else "this"
@@ -158,7 +188,9 @@ def read_cut(
         beside = Beside(folder, limits)
         metadata, notes, lost = fetched(polygons.metadata, beside.read)
         dropped = (*polygons.dropped, *lost)
-        polygons = replace(polygons, metadata=metadata, notes=(*polygons.notes, *notes), dropped=dropped)
+        polygons = replace(
+            polygons, metadata=metadata, notes=(*polygons.notes, *notes), dropped=dropped
+        )
     return polygons.checked(limits, len(data), cut)
 
 
@@ -197,16 +229,22 @@ def is_apart(kinds: Iterable[str], limits: Limits, isolated: bool | None) -> boo
     if not is_wanted:
         return False
     lack = landlock.lack()
-    foreign = next((kind for kind in kinds if isolated or kind not in (*MESH_FORMATS, *GLTF, "npy", "")), None)
+    foreign = next(
+        (kind for kind in kinds if isolated or kind not in (*MESH_FORMATS, *GLTF, "npy", "")), None
+    )
     if lack is not None and foreign is not None:
         error = DependencyError if "pip" in lack else UnsupportedError
         what = f".{foreign} files" if foreign else "files"
         why = "since nothing else bounds a reader's memory, time and files"
-        raise error(f"{what} from strangers are read in a process of its own, {why}; that needs {lack}")
+        raise error(
+            f"{what} from strangers are read in a process of its own, {why}; that needs {lack}"
+        )
     return sys.platform == "linux"
 
 
-def written_mesh(mesh: TriangleMesh, file_format: str, path: str | os.PathLike[str] = "mesh") -> Written:
+def written_mesh(
+    mesh: TriangleMesh, file_format: str, path: str | os.PathLike[str] = "mesh"
+) -> Written:
     """A mesh as a file of one of `WRITTEN_FORMATS`, what that cannot hold, and what lies beside it."""
     if mesh.metadata.items() >= PRECISION.items():
         metadata = {name: value for name, value in mesh.metadata.items() if name not in PRECISION}
@@ -226,7 +264,9 @@ def unheard(metadata: Metadata, file_format: str) -> str:
     return " and ".join(statements)
 
 
-def write_mesh(path: str | os.PathLike[str], mesh: TriangleMesh, *, overwrite: bool = True) -> tuple[str, ...]:
+def write_mesh(
+    path: str | os.PathLike[str], mesh: TriangleMesh, *, overwrite: bool = True
+) -> tuple[str, ...]:
     """Write a mesh file, as a whole or not at all, in the format of its name, and the files that belong beside it."""
     kind = format_of_name(path)
     if kind not in WRITTEN_FORMATS:
@@ -235,7 +275,9 @@ def write_mesh(path: str | os.PathLike[str], mesh: TriangleMesh, *, overwrite: b
     return save_written(path, written, overwrite=overwrite)
 
 
-def unknown_suffix(path: str | os.PathLike[str], *more: str, kind: str | None = None) -> OptionError:
+def unknown_suffix(
+    path: str | os.PathLike[str], *more: str, kind: str | None = None
+) -> OptionError:
     """Return an error that lists the suffixes that can be written."""
     suffix = kind or Path(path).suffix[1:]
     fault = f"single meshes are not written as {suffix}" if suffix else "its name has no suffix"
@@ -251,7 +293,9 @@ def parts_of(path: str, metadata: Metadata) -> dict[str, Path | None]:
             names = {*by_name("bsm.gltf.document", "read_document")(path).files}
     beside = Beside(Path(path).resolve().parent, Limits())
     # Images may lie beside the library of materials that names them, and not beside the mesh.
-    folders = dict.fromkeys(["", *(line.replace("\\", "/").rpartition("/")[0] for line in libraries)])
+    folders = dict.fromkeys(
+        ["", *(line.replace("\\", "/").rpartition("/")[0] for line in libraries)]
+    )
     parts: dict[str, Path | None] = {}
     for name in filter(None, names):
         places = [beside.find(f"{folder}/{name}" if folder else name) for folder in folders]
@@ -271,7 +315,10 @@ def size_with_parts(path: str, metadata: Metadata) -> tuple[int | None, dict[str
 def copied(source: str, mesh: TriangleMesh, output: str | os.PathLike[str]) -> Written:
     """The bytes of a mesh file, and, unless they go to its own folder, those of the files there that it names."""
     parts: dict[str, Path | None] = {}
-    if not can_be_replaced(output) or Path(output).resolve().parent != Path(source).resolve().parent:
+    if (
+        not can_be_replaced(output)
+        or Path(output).resolve().parent != Path(source).resolve().parent
+    ):
         parts = parts_of(source, mesh.metadata)
     beside = {Path(name).name: part.read_bytes() for name, part in parts.items() if part}
     missing = tuple(name for name, part in parts.items() if not part)

@@ -26,7 +26,8 @@ except ImportError:  # not a POSIX system
     fcntl = None  # type: ignore[assignment]
 
 _TEMPORARY = ".part"
-_ENDING = tuple(filter(None, (signal.SIGTERM, getattr(signal, "SIGHUP", None))))  # Windows has no SIGHUP
+# Windows has no SIGHUP.
+_ENDING = tuple(filter(None, (signal.SIGTERM, getattr(signal, "SIGHUP", None))))
 _HELD = "/proc/self/fd"  # Linux names folders that are open there
 _UMASK = threading.Lock()  # the process has one mask, which can only be read by setting it
 _FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
@@ -54,7 +55,10 @@ def open_output(
         raise IsADirectoryError(errno.EISDIR, "the output is a folder", os.fspath(path))
     if follow is True and not can_be_replaced(path):
         descriptor = _descriptor(path)
-        with by_its_own_name(path), open(path if descriptor is None else os.dup(descriptor), "wb") as device:
+        with (
+            by_its_own_name(path),
+            open(path if descriptor is None else os.dup(descriptor), "wb") as device,
+        ):
             yield device
         return
     refuse_to_overwrite(path, overwrite)
@@ -117,7 +121,9 @@ def _in_its_folder(target: Path, follow: bool | str) -> Iterator[Path]:
         os.close(folder_number)
 
 
-def write_output(path: str | os.PathLike[str], data: bytes, *, overwrite: bool, follow: bool | str = True) -> None:
+def write_output(
+    path: str | os.PathLike[str], data: bytes, *, overwrite: bool, follow: bool | str = True
+) -> None:
     with open_output(path, overwrite=overwrite, follow=follow) as file:
         file.write(data)
 
@@ -152,8 +158,12 @@ def refuse_to_overwrite(path: str | os.PathLike[str], overwrite: bool) -> None:
     """Raise `FileExistsError` if `path` is a file and `overwrite` is false; ask before long work."""
     if isinstance(path, str) and pipes.is_url(path):
         pipes.refuse_to_replace(path, overwrite)
-    elif not overwrite and os.fspath(path) != "-" and os.path.isfile(path) and can_be_replaced(path):
-        raise FileExistsError(errno.EEXIST, "the output exists already; -f overwrites it", os.fspath(path))
+    elif (
+        not overwrite and os.fspath(path) != "-" and os.path.isfile(path) and can_be_replaced(path)
+    ):
+        raise FileExistsError(
+            errno.EEXIST, "the output exists already; -f overwrites it", os.fspath(path)
+        )
 
 
 def own_name(path: str) -> str:
@@ -164,7 +174,9 @@ def own_name(path: str) -> str:
 def refuse_collisions(inputs: Iterable[str], outputs: Iterable[str]) -> None:
     """Raise `OptionError` if an output would replace an input or another output, under whatever name or link."""
     names = [own_name(output) for output in outputs if output]
-    input_identities = {_identity(file) for name in map(own_name, inputs) for file in pipes.files_behind(name)} - {None}
+    input_identities = {
+        _identity(file) for name in map(own_name, inputs) for file in pipes.files_behind(name)
+    } - {None}
     output_identities: set[object] = set()
     for output in names:
         identity = _identity(output)
@@ -172,7 +184,9 @@ def refuse_collisions(inputs: Iterable[str], outputs: Iterable[str]) -> None:
             raise OptionError(f"the output would replace the input {output}; name another with -o")
         for key in {identity, _place(output)} - {None}:
             if key in output_identities:
-                raise OptionError(f"two outputs would have the name {output}; give each a name of its own")
+                raise OptionError(
+                    f"two outputs would have the name {output}; give each a name of its own"
+                )
             output_identities.add(key)
 
 
@@ -233,7 +247,9 @@ def _temporary(target: Path) -> tuple[int, str, int | None]:
 def open_own(path: Path, flags: int) -> int:
     """Open a file of a name that the user did not give: through no link, and neither a pipe nor a device."""
     if path.is_symlink() or (path.exists() and not path.is_file()):
-        raise FileExistsError(errno.EEXIST, "this is not a regular file; remove it", os.fspath(path))
+        raise FileExistsError(
+            errno.EEXIST, "this is not a regular file; remove it", os.fspath(path)
+        )
     return os.open(path, flags | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_NONBLOCK", 0), 0o666)
 
 
@@ -263,7 +279,9 @@ def by_its_own_name(path: str | os.PathLike[str]) -> Iterator[None]:
             del error.filename2  # None would be printed as a name
             folder = os.path.dirname(os.fspath(path))
             if isinstance(error, FileNotFoundError) and not os.path.isdir(folder):
-                error.strerror = f"the folder {folder} of the output does not exist; create it first"
+                error.strerror = (
+                    f"the folder {folder} of the output does not exist; create it first"
+                )
         raise
 
 
@@ -299,7 +317,9 @@ def termination_as_exception() -> AbstractContextManager[None]:
         raise Terminated(128 + number)
 
     # nohup has such a program ignore the end of the terminal, and it stays so.
-    return handled((number for number in _ENDING if signal.getsignal(number) is not signal.SIG_IGN), stop)
+    return handled(
+        (number for number in _ENDING if signal.getsignal(number) is not signal.SIG_IGN), stop
+    )
 
 
 def default_output(path: str, suffix: str) -> str:
@@ -314,7 +334,9 @@ def default_output(path: str, suffix: str) -> str:
 
 def output_inside(folder: str, path: str, suffix: str) -> str:
     name = _with_suffix(path, suffix).name
-    return posixpath.join(folder, name) if pipes.is_url(folder) else no_link(str(Path(folder, name)))
+    return (
+        posixpath.join(folder, name) if pipes.is_url(folder) else no_link(str(Path(folder, name)))
+    )
 
 
 def no_link(path: str) -> str:
@@ -327,7 +349,9 @@ def no_link(path: str) -> str:
 def _with_suffix(path: str, suffix: str) -> Path:
     far = pipes.is_url(path)
     if not far and glob.has_magic(path) and not Path(path).exists():
-        raise OptionError(f"{path} stands for many files, which make one; name that with -o, with its suffix")
+        raise OptionError(
+            f"{path} stands for many files, which make one; name that with -o, with its suffix"
+        )
     place = Path(pipes.name_in(path) if far else path)
     if place.name in ("", "-", "..") or path.startswith("/dev/"):
         raise OptionError(f"{path} gives the output no name; name it with -o")
@@ -336,4 +360,6 @@ def _with_suffix(path: str, suffix: str) -> Path:
 
 def refuse_terminal(path: str) -> None:
     if path == "-" and pipes.standard_output().isatty():
-        raise OptionError("binary data is not written to a terminal; redirect it, or name a file with -o")
+        raise OptionError(
+            "binary data is not written to a terminal; redirect it, or name a file with -o"
+        )

@@ -17,7 +17,14 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from bsm.bitstream.errors import BsmError, CorruptError, FormatError, LimitError, MeshError, TruncatedError
+from bsm.bitstream.errors import (
+    BsmError,
+    CorruptError,
+    FormatError,
+    LimitError,
+    MeshError,
+    TruncatedError,
+)
 from bsm.bitstream.limits import Limits
 
 Ints = npt.NDArray[np.int64]
@@ -33,7 +40,10 @@ class Rows:
         self.counts: Ints = np.fromiter((len(line.split()) for line in lines), np.int64, len(lines))
         self.starts: Ints = np.cumsum(self.counts) - self.counts
         # Few words at a time: millions of small objects fall out of the caches, and each then takes longer.
-        pieces = (_numbers(lines[begin : begin + _LINES], what, begin) for begin in range(0, len(lines), _LINES))
+        pieces = (
+            _numbers(lines[begin : begin + _LINES], what, begin)
+            for begin in range(0, len(lines), _LINES)
+        )
         self.values: Doubles = np.concatenate([np.zeros(0), *pieces])
 
     def require(self, needed: int | Ints) -> None:
@@ -50,11 +60,17 @@ class Rows:
 
     def lists(self, before: int) -> tuple[Ints, Ints]:
         """The lists that follow `before` numbers of each line: their lengths, and their items one after the other."""
-        sizes = as_integers(self.columns(before, 1)[:, 0], f"the number of corners of a {self.what}")
+        sizes = as_integers(
+            self.columns(before, 1)[:, 0], f"the number of corners of a {self.what}"
+        )
         if (sizes < 0).any():
-            raise MeshError(f"{self.what} {int(np.argmax(sizes < 0))} has a negative number of corners")
+            raise MeshError(
+                f"{self.what} {int(np.argmax(sizes < 0))} has a negative number of corners"
+            )
         self.require(before + 1 + sizes)
-        return sizes, as_integers(self.values[ranges(self.starts + before + 1, sizes)], "a vertex index")
+        return sizes, as_integers(
+            self.values[ranges(self.starts + before + 1, sizes)], "a vertex index"
+        )
 
 
 class EvenRows(Rows):
@@ -81,7 +97,9 @@ def _numbers(lines: Sequence[bytes], what: str, first: int) -> Doubles:
         return np.array(text.split(), dtype=np.float64)
     except ValueError as error:
         word = str(error).partition(": ")[2]  # as numpy quotes it
-        row = next(number for number, line in enumerate(lines, first) if word in map(repr, line.split()))
+        row = next(
+            number for number, line in enumerate(lines, first) if word in map(repr, line.split())
+        )
         raise MeshError(f"{what} {row} is not made of numbers: {word[1:61]}") from None
 
 
@@ -114,13 +132,17 @@ def continued(data: bytes) -> bytes:
     """Text whose lines that end with a backslash are joined to the next; comments are not continued."""
     if b"\\" not in data:
         return data
-    return re.sub(rb"^([ \t]*#[^\r\n]*)|\\[ \t]*\r?\n", lambda match: match[1] or b" ", data, flags=re.M)
+    return re.sub(
+        rb"^([ \t]*#[^\r\n]*)|\\[ \t]*\r?\n", lambda match: match[1] or b" ", data, flags=re.M
+    )
 
 
 def require_lines(present: int, claimed: int) -> None:
     """Raise `TruncatedError` if fewer lines are present than the header of a file claims."""
     if present < claimed:
-        raise TruncatedError(f"the file is cut short: its header claims {claimed} vertices and faces, {present} follow")
+        raise TruncatedError(
+            f"the file is cut short: its header claims {claimed} vertices and faces, {present} follow"
+        )
 
 
 PRECISION = {"precision": "single"}
@@ -132,14 +154,18 @@ NO_DOUBLES += "--float32 (in Python, the metadata precision: single)"
 def single_suffices(positions: Doubles) -> bool:
     with np.errstate(over="ignore", invalid="ignore"):
         error = np.abs(positions.astype(np.float32) - positions).max()
-        return bool(np.isfinite(error) and error <= 1e-6 * np.linalg.norm(np.ptp(positions, axis=0)))
+        return bool(
+            np.isfinite(error) and error <= 1e-6 * np.linalg.norm(np.ptp(positions, axis=0))
+        )
 
 
 def is_single_and_far(positions: Doubles) -> bool:
     """Whether coordinates are in single precision, which would not suffice for others at this place."""
     with np.errstate(over="ignore", invalid="ignore"):
         single = positions.astype(np.float32)
-        return bool((single == positions).all()) and not single_suffices(positions + np.spacing(single) / 2.0)
+        return bool((single == positions).all()) and not single_suffices(
+            positions + np.spacing(single) / 2.0
+        )
 
 
 def text_table(row: str, columns: npt.NDArray[Any]) -> bytes:
@@ -153,11 +179,13 @@ def point_row(keyword: str, positions: Doubles) -> str:
     return f"{keyword}{number} {number} {number}\n"
 
 
-AS_NUMBERS = 8  # bytes of a coordinate or an index as readers make it, however narrow the file has it
+# Bytes of a coordinate or an index as readers make it, however narrow the file has it.
+AS_NUMBERS = 8
 TREE = 32  # bytes that a byte of JSON may become
 TAG = 150  # bytes that a tag of XML becomes in the tree of a library
 _PIECE = 1 << 18
-_ENDING = 16  # zeros that the end of a gzip member may have; gzip skips zeros after it one at a time
+# Zeros that the end of a gzip member may have; gzip skips zeros after it one at a time.
+_ENDING = 16
 
 
 def require_counts(limits: Limits, **counts: int) -> None:
@@ -165,7 +193,9 @@ def require_counts(limits: Limits, **counts: int) -> None:
     for name, count in counts.items():
         most = int(min(getattr(limits, name), 1 << 62))
         if count > most:
-            raise LimitError(f"{name} = {count:,} is over the limit of {most:,}; cut it into parts, as bsm tile does")
+            raise LimitError(
+                f"{name} = {count:,} is over the limit of {most:,}; cut it into parts, as bsm tile does"
+            )
 
 
 def require_inflated(size: int, compressed: int, limits: Limits, vertices: int = 0) -> None:
@@ -179,7 +209,9 @@ def require_inflated(size: int, compressed: int, limits: Limits, vertices: int =
 
 
 _PACKAGE = str(Path(__file__).parents[1])
-_OF_PYTHON = re.compile(r"reshap|broadcast|\bint\(\)|to integer|inhomogeneous|' object\b|NoneType|__|\bargument")
+_OF_PYTHON = re.compile(
+    r"reshap|broadcast|\bint\(\)|to integer|inhomogeneous|' object\b|NoneType|__|\bargument"
+)
 
 
 def in_words(error: Exception) -> str:
@@ -189,11 +221,23 @@ def in_words(error: Exception) -> str:
     if isinstance(error, KeyError):
         return f"{error} is missing"
     words = re.sub(r"^\w*(Error|Exception)( \d+)?: *", "", " ".join(str(error).split()))[-200:]
-    ours = isinstance(error, LookupError | TypeError | AttributeError | ArithmeticError | AssertionError) or not words
+    ours = (
+        isinstance(
+            error, LookupError | TypeError | AttributeError | ArithmeticError | AssertionError
+        )
+        or not words
+    )
     # Such a text describes our program, not the file. The line that failed helps in a bug report.
     if ours or _OF_PYTHON.search(words):
-        own_frames = [at for at in walk_tb(error.__traceback__) if at[0].f_code.co_filename.startswith(_PACKAGE)]
-        place = "".join(f" ({Path(frame.f_code.co_filename).name}, line {line})" for frame, line in own_frames[-1:])
+        own_frames = [
+            at
+            for at in walk_tb(error.__traceback__)
+            if at[0].f_code.co_filename.startswith(_PACKAGE)
+        ]
+        place = "".join(
+            f" ({Path(frame.f_code.co_filename).name}, line {line})"
+            for frame, line in own_frames[-1:]
+        )
         return f"a value does not fit the others, or is of another kind than it must be{place}"
     return words
 
@@ -206,7 +250,14 @@ def as_format_error(kind: str) -> Iterator[None]:
     except BsmError:
         raise
     # Not Exception: all other errors are our own faults, and must not be blamed on the file.
-    except (LookupError, TypeError, ValueError, AttributeError, RuntimeError, ArithmeticError) as error:
+    except (
+        LookupError,
+        TypeError,
+        ValueError,
+        AttributeError,
+        RuntimeError,
+        ArithmeticError,
+    ) as error:
         raise FormatError(f"this {kind} makes no sense: {in_words(error)}") from error
 
 
@@ -231,7 +282,9 @@ def gunzipped(data: bytes, limits: Limits) -> bytes:
                 unpacked += piece
                 require_inflated(2 * len(unpacked), len(data), limits)  # these, and a copy of them
     except EOFError as error:
-        raise TruncatedError("the file is cut short: what gzip has compressed does not end") from error
+        raise TruncatedError(
+            "the file is cut short: what gzip has compressed does not end"
+        ) from error
     except (OSError, zlib.error) as error:
         raise CorruptError(f"what gzip has compressed is damaged: {error}") from error
     return bytes(unpacked)

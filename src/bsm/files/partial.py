@@ -14,7 +14,14 @@ from bsm.bitstream.errors import MeshError, OptionError
 from bsm.bitstream.limits import Limits
 from bsm.codec.arrays import Faces
 from bsm.codec.decoding import Decoder
-from bsm.codec.events import BlockEvent, ConnectivityEvent, EndEvent, HeaderEvent, LossEvent, RefinementEvent
+from bsm.codec.events import (
+    BlockEvent,
+    ConnectivityEvent,
+    EndEvent,
+    HeaderEvent,
+    LossEvent,
+    RefinementEvent,
+)
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.files.formats.appearance import refers_to_image
 from bsm.files.formats.metadata import materials_in
@@ -38,7 +45,9 @@ def blocks_in_words(count: int, header: Header) -> str:
     return ""
 
 
-def decode_blocks(chunks: Iterator[bytes], count: int, progress: Progress, limits: Limits) -> TriangleMesh:
+def decode_blocks(
+    chunks: Iterator[bytes], count: int, progress: Progress, limits: Limits
+) -> TriangleMesh:
     """Decode the first `count` blocks, read no further, and return the faces whose vertices have all arrived."""
     if count < 1:
         raise OptionError(f"at least one block is decoded: give 1 or more, not {count}")
@@ -56,7 +65,9 @@ def decode_blocks(chunks: Iterator[bytes], count: int, progress: Progress, limit
     return _decode_until(Decoder(limits), chunks, enough)
 
 
-def decode_what_is_left(chunks: Iterator[bytes], report: Callable[[str], None], limits: Limits) -> TriangleMesh:
+def decode_what_is_left(
+    chunks: Iterator[bytes], report: Callable[[str], None], limits: Limits
+) -> TriangleMesh:
     """Decode every block of a damaged stream that does not depend on lost data; call `report` for each loss."""
     received = bytearray()
     declared = 0
@@ -147,7 +158,11 @@ def _lost_images(sections: Sequence[Section], metadata: Metadata) -> set[int]:
 def _images_of_materials(metadata: Metadata) -> set[int]:
     numbers: set[int] = set()
     for words in materials_in(metadata).values():
-        numbers |= {value for word, value in words.items() if refers_to_image(word) and isinstance(value, int)}
+        numbers |= {
+            value
+            for word, value in words.items()
+            if refers_to_image(word) and isinstance(value, int)
+        }
     return numbers
 
 
@@ -182,7 +197,9 @@ def _name_of(section: Section) -> str:
 
 def _unpacker(data: memoryview) -> msgpack.Unpacker:
     """Return a reader of small maps, which neither builds lists nor takes more memory than the bytes."""
-    unpacker = msgpack.Unpacker(max_array_len=MAX_ENTRIES, max_map_len=MAX_ENTRIES, max_buffer_size=len(data))
+    unpacker = msgpack.Unpacker(
+        max_array_len=MAX_ENTRIES, max_map_len=MAX_ENTRIES, max_buffer_size=len(data)
+    )
     unpacker.feed(data)
     return unpacker
 
@@ -208,7 +225,9 @@ def _keys_of(section: Section) -> list[str]:
     return keys
 
 
-def _decode_until(decoder: Decoder, chunks: Iterator[bytes], enough: Callable[[Any], bool]) -> TriangleMesh:
+def _decode_until(
+    decoder: Decoder, chunks: Iterator[bytes], enough: Callable[[Any], bool]
+) -> TriangleMesh:
     """Decode until an event is enough, or to the end; the faces whose vertices have all arrived."""
     faces: Faces = np.empty((0, 3), np.int32)
     positions, is_known = np.empty((0, 3)), np.empty(0, np.bool_)
@@ -229,6 +248,6 @@ def _decode_until(decoder: Decoder, chunks: Iterator[bytes], enough: Callable[[A
         known_attributes = tuple(
             attribute.taken(np.arange(len(is_known)), complete) for attribute in decoder.attributes
         )
-        return TriangleMesh(positions, faces[complete], known_attributes, decoder.metadata).without_isolated_vertices()[
-            0
-        ]
+        return TriangleMesh(
+            positions, faces[complete], known_attributes, decoder.metadata
+        ).without_isolated_vertices()[0]

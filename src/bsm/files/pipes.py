@@ -25,7 +25,17 @@ _PIECE, _IN_MEMORY = 1 << 20, 1 << 26
 """Bytes that are sent at a time, and those that wait in memory and not on the disk."""
 _LONGEST_NAME = 1024  # of a file beside another: resolving takes the square of it
 _WEB = ("http", "https")
-_STAMPS = ("ETag", "etag", "Last-Modified", "LastModified", "last_modified", "mtime", "updated", "created", "checksum")
+_STAMPS = (
+    "ETag",
+    "etag",
+    "Last-Modified",
+    "LastModified",
+    "last_modified",
+    "mtime",
+    "updated",
+    "created",
+    "checksum",
+)
 """What file systems call what changes with a file."""
 
 
@@ -72,7 +82,9 @@ def file_beside(folder: Path, name: str) -> Path:
 def refuse_link_out(folder: str, path: str) -> None:
     """Refuse a file that was found in a folder, and is a link to another one."""
     if not Path(path).resolve().is_relative_to(Path(folder).resolve()):
-        raise errors.FormatError("this is a link to another folder; name the file itself, or copy it here")
+        raise errors.FormatError(
+            "this is a link to another folder; name the file itself, or copy it here"
+        )
 
 
 def place_of(folder: str, name: str) -> str:
@@ -106,7 +118,8 @@ def _errors_of(url: str) -> Iterator[None]:
     # that cannot be reached, which is no reason to write a new output.
     except FileNotFoundError as error:
         behind = error.__cause__
-        if isinstance(behind, OSError) and behind.errno not in (None, errno.ENOENT):  # no server, as aiohttp has it
+        # No server, as aiohttp has it.
+        if isinstance(behind, OSError) and behind.errno not in (None, errno.ENOENT):
             message = f"the server does not answer: {os.strerror(behind.errno or errno.EIO)}"
             raise OSError(behind.errno, message, url) from error
         raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), url) from error
@@ -114,12 +127,16 @@ def _errors_of(url: str) -> Iterator[None]:
         raise
     # What fsspec raises of a file system that can only be read.
     except NotImplementedError as error:
-        raise errors.OptionError(f"{_scheme(url)}:// cannot be written to; name another place with -o") from error
+        raise errors.OptionError(
+            f"{_scheme(url)}:// cannot be written to; name another place with -o"
+        ) from error
     except OSError as error:
         # It has been through here already, in a call inside another.
         if error.filename == url:
             raise
-        raise OSError(error.errno or errno.EIO, error.strerror or str(error) or type(error).__name__, url) from error
+        raise OSError(
+            error.errno or errno.EIO, error.strerror or str(error) or type(error).__name__, url
+        ) from error
     except Exception as error:
         raise OSError(errno.EIO, f"{type(error).__name__}: {error}", url) from error
 
@@ -167,7 +184,9 @@ def _send(contents: BinaryIO, url: str) -> None:
 
 def refuse_to_replace(url: str, overwrite: bool) -> None:
     if _scheme(url) in _WEB:
-        raise errors.OptionError(f"{_scheme(url)}:// cannot be written to; name another place with -o")
+        raise errors.OptionError(
+            f"{_scheme(url)}:// cannot be written to; name another place with -o"
+        )
     if not overwrite and state_of_remote(url) is not None:
         raise FileExistsError(errno.EEXIST, "the output exists already; -f overwrites it", url)
 
@@ -213,10 +232,14 @@ def _system(url: str) -> tuple[Any, str]:
     # The message of fsspec names a module, and pip may know its package under another name.
     except ImportError as error:
         registry = errors.imported("fsspec.registry", "", "remote")
-        package = registry.known_implementations.get(scheme, {}).get("class", "fsspec.").partition(".")[0]
+        package = (
+            registry.known_implementations.get(scheme, {}).get("class", "fsspec.").partition(".")[0]
+        )
         if package == "fsspec":
             package = f"fsspec[{'http' if scheme in _WEB else scheme}]"
-        raise errors.DependencyError(f"{scheme}:// needs a package that is missing: pip install '{package}'") from error
+        raise errors.DependencyError(
+            f"{scheme}:// needs a package that is missing: pip install '{package}'"
+        ) from error
     except ValueError as error:
         raise errors.OptionError(f"{url}: {error}") from error
 
@@ -247,7 +270,9 @@ def _refuse_text_of_stream(text: str) -> None:
     for beginning, call in _TEXTS_OF_STREAMS.items():
         is_text = text[: len(beginning)].lower() == beginning.lower()
         if is_text and not os.path.exists(text):
-            raise errors.ArgumentError(f"a text with the bytes of a stream is not a path; give its bytes: {call}")
+            raise errors.ArgumentError(
+                f"a text with the bytes of a stream is not a path; give its bytes: {call}"
+            )
 
 
 class Input:
@@ -266,10 +291,14 @@ class Input:
             self.name = str(getattr(source, "name", ""))
         else:
             try:
-                self._file = io.BytesIO(source if isinstance(source, bytes) else memoryview(source).tobytes())
+                self._file = io.BytesIO(
+                    source if isinstance(source, bytes) else memoryview(source).tobytes()
+                )
             except TypeError:
                 kind = type(source).__name__
-                raise errors.ArgumentError(f"bytes, a path or a binary file are expected, not {kind}") from None
+                raise errors.ArgumentError(
+                    f"bytes, a path or a binary file are expected, not {kind}"
+                ) from None
 
     @property
     def is_file(self) -> bool:
@@ -333,14 +362,20 @@ class Input:
         # A descriptor that does not block has nothing yet: taking it for the end would cut the file short without a
         # word.
         if piece is None:
-            raise BlockingIOError(errno.EAGAIN, "the file has no bytes yet, and does not wait for them", self.name)
+            raise BlockingIOError(
+                errno.EAGAIN, "the file has no bytes yet, and does not wait for them", self.name
+            )
         if isinstance(piece, str):
-            raise errors.ArgumentError("a binary file is expected, not one of text; open it with mode 'rb'")
+            raise errors.ArgumentError(
+                "a binary file is expected, not one of text; open it with mode 'rb'"
+            )
         if not piece:
             self.close()
             return b""
         if not isinstance(piece, (bytes, bytearray, memoryview)):
-            raise errors.ArgumentError(f"a binary file is expected: read() must give bytes, not {type(piece).__name__}")
+            raise errors.ArgumentError(
+                f"a binary file is expected: read() must give bytes, not {type(piece).__name__}"
+            )
         return bytes(piece)
 
     def close(self) -> None:
@@ -373,13 +408,16 @@ def read_range(name: str, first: int, size: int) -> bytes:
         with _errors_of(name):
             files, path = _system(name)
             data = bytes(files.cat_file(path, start=first, end=first + size))
-            data = data[first : first + size] if len(data) > size else data  # of a server that knows no ranges
+            # Of a server that knows no ranges.
+            data = data[first : first + size] if len(data) > size else data
     else:
         with open(name, "rb") as file:
             file.seek(first)
             data = file.read(max(0, min(size, os.fstat(file.fileno()).st_size - first)))
     if len(data) != size:
-        raise errors.TruncatedError(f"{name}: there are {len(data)} bytes of {size} from byte {first} on")
+        raise errors.TruncatedError(
+            f"{name}: there are {len(data)} bytes of {size} from byte {first} on"
+        )
     return data
 
 

@@ -23,7 +23,15 @@ from bsm.codec.sequence.runs import is_empty
 from bsm.files import landlock
 from bsm.files.formats.npz import NPY, open_npz_sequence, read_archive, read_pipe, write_npy
 from bsm.files.formats.polygons import CutAlike, MeshFile, joined_files
-from bsm.files.mesh import is_apart, kind_of, parts_of, read_cut, read_mesh, save_written, written_mesh
+from bsm.files.mesh import (
+    is_apart,
+    kind_of,
+    parts_of,
+    read_cut,
+    read_mesh,
+    save_written,
+    written_mesh,
+)
 from bsm.files.motion import folder
 from bsm.files.motion.caches import CACHES, mesh_beside, mesh_of, read_cache, write_cache
 from bsm.files.motion.frames import USUAL_RATE, Frames, FrameWriter, Shared, Wanted
@@ -63,21 +71,34 @@ def open_sequence(
         return open_frames(names, file_format, limits, wishes, isolated=isolated)
     kind = file_format or Path(input_source.name).suffix[1:].lower()
     if kind == "abc":
-        raise UnsupportedError("Alembic is not read here: export it from Blender as USD, or with the extension for BSM")
+        raise UnsupportedError(
+            "Alembic is not read here: export it from Blender as USD, or with the extension for BSM"
+        )
     if kind in folder.LISTS and input_source.is_file:
         if is_apart((), limits, isolated) and landlock.lack() is None:
             listed: Frames = by_name(*_ISOLATED)(input_source, file_format, limits, kind, request)
             return listed
         names, times, parts = folder.listed(input_source.name, kind, limits)
-        return open_frames(names, None, limits, replace(wishes, times=times, parts=parts), isolated=isolated)
-    moves = kind in SEQUENCES_READ and kind not in ("npz", "npy") and (kind not in GLTF or request is not None)
+        return open_frames(
+            names, None, limits, replace(wishes, times=times, parts=parts), isolated=isolated
+        )
+    moves = (
+        kind in SEQUENCES_READ
+        and kind not in ("npz", "npy")
+        and (kind not in GLTF or request is not None)
+    )
     head = b"" if moves else input_source.peek(len(NPY))
     piped = head == NPY or file_format == "npy"
-    packed = head.startswith(ZIP) and (file_format is not None or kind in ("", "npz"))  # a 3MF is a ZIP, too
-    if not (input_source.is_file if moves else file_format in (None, "npz", "npy") and (piped or packed)):
+    # A 3MF is a ZIP, too.
+    packed = head.startswith(ZIP) and (file_format is not None or kind in ("", "npz"))
+    if not (
+        input_source.is_file if moves else file_format in (None, "npz", "npy") and (piped or packed)
+    ):
         return None
     if is_apart((kind if moves else "npz",), limits, isolated):
-        isolated_frames: Frames | None = by_name(*_ISOLATED)(input_source, file_format, limits, kind, request)
+        isolated_frames: Frames | None = by_name(*_ISOLATED)(
+            input_source, file_format, limits, kind, request
+        )
     elif kind in CACHES:
         isolated_frames = read_cache(input_source.name, kind, wishes, limits)
     elif moves and FORMATS[kind].apart:
@@ -86,14 +107,23 @@ def open_sequence(
         )
     elif moves:
         row = FORMATS[kind]
-        isolated_frames = by_name(row.modules[0], row.reader.removesuffix("_mesh"))(input_source.name, wishes, limits)
+        isolated_frames = by_name(row.modules[0], row.reader.removesuffix("_mesh"))(
+            input_source.name, wishes, limits
+        )
     else:
-        isolated_frames = read_pipe(input_source, limits) if piped else read_archive(input_source, limits)
+        isolated_frames = (
+            read_pipe(input_source, limits) if piped else read_archive(input_source, limits)
+        )
     return isolated_frames
 
 
 def open_frames(
-    names: Sequence[str], file_format: str | None, limits: Limits, request: Wanted, *, isolated: bool | None
+    names: Sequence[str],
+    file_format: str | None,
+    limits: Limits,
+    request: Wanted,
+    *,
+    isolated: bool | None,
 ) -> Frames:
     """The sequence of these mesh files by their times or numbers; errors as of `open_sequence`."""
     ordered = list(names) if request.times else folder.in_order(names)
@@ -112,7 +142,10 @@ def open_frames(
 
     def read(label: str) -> MeshFile:
         group = by_label[label]
-        files = [read_cut(name, file_format, limits, cut, isolated=isolated) for name, cut in zip(group, cuts)]
+        files = [
+            read_cut(name, file_format, limits, cut, isolated=isolated)
+            for name, cut in zip(group, cuts)
+        ]
         return joined_files(files, group, limits)
 
     return folder.read_files([", ".join(group) for group in groups], read, request)
@@ -124,7 +157,9 @@ def _files_of_frames(path: str) -> Iterable[str]:
     return meshes or files_behind(path)
 
 
-def size_of_sequence(paths: Sequence[str], metadata: Metadata, mesh: str | None = None) -> int | None:
+def size_of_sequence(
+    paths: Sequence[str], metadata: Metadata, mesh: str | None = None
+) -> int | None:
     """The bytes of all files that a sequence was read from, each once: lists and theirs, caches and their mesh."""
     if any(is_url(path) or path == "-" for path in paths):
         return size_of(paths[0])
@@ -133,10 +168,19 @@ def size_of_sequence(paths: Sequence[str], metadata: Metadata, mesh: str | None 
     file_names: list[str] = []
     for path in (file for name in paths for file in _files_of_frames(name)):
         kind = Path(path).suffix[1:].lower()
-        file_names += [path, *(folder.listed(path, kind, DEFAULT_LIMITS)[0] if kind in folder.LISTS else ())]
+        file_names += [
+            path,
+            *(folder.listed(path, kind, DEFAULT_LIMITS)[0] if kind in folder.LISTS else ()),
+        ]
         file_names += [mesh or mesh_beside(path)] if kind in CACHES else []
-    parts_named = parts_of(file_names[-1] if len(file_names) > 1 else file_names[0], metadata) if file_names else {}
-    files = {os.path.realpath(str(file)) for file in (*file_names, *filter(None, parts_named.values()))}
+    parts_named = (
+        parts_of(file_names[-1] if len(file_names) > 1 else file_names[0], metadata)
+        if file_names
+        else {}
+    )
+    files = {
+        os.path.realpath(str(file)) for file in (*file_names, *filter(None, parts_named.values()))
+    }
     return sum(os.path.getsize(file) for file in files if os.path.isfile(file)) or None
 
 
@@ -157,8 +201,12 @@ def sequence_writer(
         enter = opened.enter_context
         if folder.is_numbered(path) or kind not in ONE_FILE or (kind == "glb" and _is_folder(path)):
             if is_url(path):
-                raise OptionError(f"{path}: frames are written to a folder of this machine, or as an npz")
-            yield _of_files(enter(folder.write_files(path, kind, overwrite=overwrite)), kind, faces, shared)
+                raise OptionError(
+                    f"{path}: frames are written to a folder of this machine, or as an npz"
+                )
+            yield _of_files(
+                enter(folder.write_files(path, kind, overwrite=overwrite)), kind, faces, shared
+            )
             return
         shared = replace(shared, held=FORMATS[kind].times)
         if kind in CACHES:
@@ -173,19 +221,28 @@ def sequence_writer(
         elif kind == "npy":
             write_npy(file, faces)
             yield _of_one_mesh(lambda frame: write_npy(file, frame), kind)
-            shared.loses([*(attribute.name for attribute in shared.attributes()), *shared.metadata()])
+            shared.loses(
+                [*(attribute.name for attribute in shared.attributes()), *shared.metadata()]
+            )
         elif kind == "glb":
             yield enter(by_name("bsm.gltf.write", "write_frames")(file, path, faces, shared))
         else:
-            yield enter(by_name("bsm.files.motion.usd.writing", "write_usd")(file, kind, faces, shared))
+            yield enter(
+                by_name("bsm.files.motion.usd.writing", "write_usd")(file, kind, faces, shared)
+            )
 
 
 def _of_files(
-    write_mesh: Callable[[TriangleMesh, int], Iterable[str]], kind: str, present: Faces, shared: Shared
+    write_mesh: Callable[[TriangleMesh, int], Iterable[str]],
+    kind: str,
+    present: Faces,
+    shared: Shared,
 ) -> FrameWriter:
     """A writer of a file for each frame; materials and images lie beside the first one alone."""
     numbered, numbers, fresh = shared.numbered, count_from(0), True
-    times_held = FORMATS[kind].times if kind == "vtp" or (numbered and kind != "glb") else frozenset()
+    times_held = (
+        FORMATS[kind].times if kind == "vtp" or (numbered and kind != "glb") else frozenset()
+    )
     frames = replace(shared, held=times_held)
 
     def take(frame: Positions, faces: Faces | None = None) -> None:
@@ -216,7 +273,9 @@ def _of_one_mesh(write: Callable[[Positions], None], kind: str) -> FrameWriter:
 
 
 @contextmanager
-def _list_writer(path: str, faces: Faces, overwrite: bool, follow: bool | str, shared: Shared) -> Iterator[FrameWriter]:
+def _list_writer(
+    path: str, faces: Faces, overwrite: bool, follow: bool | str, shared: Shared
+) -> Iterator[FrameWriter]:
     """A list for ParaView, and a folder beside it, called like it, with a VTP for each time."""
     from html import escape
 
@@ -239,7 +298,13 @@ def _list_writer(path: str, faces: Faces, overwrite: bool, follow: bool | str, s
 
 @contextmanager
 def _cache_writer(
-    path: str, kind: str, first: Faces, count: int, overwrite: bool, follow: bool | str, shared: Shared
+    path: str,
+    kind: str,
+    first: Faces,
+    count: int,
+    overwrite: bool,
+    follow: bool | str,
+    shared: Shared,
 ) -> Iterator[FrameWriter]:
     """A cache, and beside it the mesh of its first frame; where faces change, both for each run, by its first frame."""
     refuse_to_overwrite(path, overwrite)
@@ -249,18 +314,28 @@ def _cache_writer(
     with tempfile.TemporaryFile() as spool:
 
         def end(*, last: bool = False) -> None:
-            name = path if last and not begun else str(Path(path).with_stem(f"{Path(path).stem}_{begun:05d}"))
+            name = (
+                path
+                if last and not begun
+                else str(Path(path).with_stem(f"{Path(path).stem}_{begun:05d}"))
+            )
             mesh, beside = meshes[-1], mesh_of(name)
             fits = _plays(beside, mesh.faces)
             refuse_to_overwrite(beside, overwrite or fits)
             spool.seek(0)
             codes = [shared.code(number) for number in range(begun, frames_taken)]
-            frames = (np.frombuffer(spool.read(mesh.positions.nbytes)).reshape(-1, 3) for _ in codes)
+            frames = (
+                np.frombuffer(spool.read(mesh.positions.nbytes)).reshape(-1, 3) for _ in codes
+            )
             with open_output(name, overwrite=overwrite, follow=follow and name == path) as file:
                 write_cache(file, kind, codes, frames, shared.frame_rate)
             shared.loses(name for name in (TIMES, RATE) if name in mesh.metadata)
             if not fits:
-                shared.loses(save_written(beside, written_mesh(mesh, "obj", beside), overwrite=overwrite, follow=False))
+                shared.loses(
+                    save_written(
+                        beside, written_mesh(mesh, "obj", beside), overwrite=overwrite, follow=False
+                    )
+                )
             spool.seek(0)
             spool.truncate()
 
@@ -273,7 +348,10 @@ def _cache_writer(
                 meshes.append(shared.mesh(np.array(frame), first if faces is None else faces))
             spool.write(np.ascontiguousarray(frame, np.float64).tobytes())
             frames_taken += 1
-            shared.loses(f"how {attribute.name} changes" for attribute in shared.moved(anew=faces is not None))
+            shared.loses(
+                f"how {attribute.name} changes"
+                for attribute in shared.moved(anew=faces is not None)
+            )
 
         yield take
         if count and frames_taken != count:
@@ -289,7 +367,9 @@ def _plays(path: str, faces: Faces) -> bool:
         return False
     # Faces without area were added for loose vertices, and OBJ files of animators do not have them.
     pairs = (triangles[triangles[:, 0] != triangles[:, 1]] for triangles in (mesh_faces, faces))
-    distinct_faces, other_faces = (np.unique(np.sort(triangles, axis=1), axis=0) for triangles in pairs)
+    distinct_faces, other_faces = (
+        np.unique(np.sort(triangles, axis=1), axis=0) for triangles in pairs
+    )
     return np.array_equal(distinct_faces, other_faces)
 
 
@@ -306,12 +386,16 @@ def sequence_kind(path: str, file_format: str | None) -> str:
         return kind
     suffix = Path(path).suffix[1:].lower()
     if suffix == "abc":
-        raise OptionError(f"{path}: Alembic is not written here; write USD, or take the sequence through Blender")
+        raise OptionError(
+            f"{path}: Alembic is not written here; write USD, or take the sequence through Blender"
+        )
     if suffix in SEQUENCE_FORMATS and not Path(path).is_dir():
         if file_format not in (None, suffix):
             raise OptionError(f"{path}: the name does not go with --format {file_format}")
         if folder.is_numbered(path) and suffix not in WRITTEN_FORMATS:
-            raise OptionError(f"{path}: {suffix.upper()} holds all frames in one file; leave out the number")
+            raise OptionError(
+                f"{path}: {suffix.upper()} holds all frames in one file; leave out the number"
+            )
         if folder.is_numbered(path) or suffix in ONE_FILE:
             return suffix
         raise OptionError(

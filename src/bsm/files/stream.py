@@ -43,14 +43,18 @@ def refuse_mesh(path: str) -> None:
         with open(path, "rb") as file:
             kind = format_of_bytes(file.read(1 << 12))
         if kind is not None or format_of_name(path) in MESH_FORMATS:
-            raise FormatError(f"this is a mesh file, not a stream; to make one, run: bsm encode {shlex.quote(path)}")
+            raise FormatError(
+                f"this is a mesh file, not a stream; to make one, run: bsm encode {shlex.quote(path)}"
+            )
 
 
 def refuse_mesh_file(source: Input) -> None:
     """Raise an error that names the right function if an input begins like a mesh file, and not like a stream."""
     kind = None if is_stream(source) else format_of_bytes(source.peek(1 << 12))
     if kind is not None:
-        raise FormatError(f"this is {FORMATS[kind].called or kind}, not a BSM stream; bsm.load reads it", offset=0)
+        raise FormatError(
+            f"this is {FORMATS[kind].called or kind}, not a BSM stream; bsm.load reads it", offset=0
+        )
 
 
 def decode_whole(
@@ -138,7 +142,9 @@ class SequenceStream:
         """Number and positions, shape (n, 3), of one frame after the other."""
         for index, positions in self.changing_frames():
             if self.run_starts:
-                raise MeshError(f"the faces change at frame {index}: use bsm.decode_frames, bsm decode or bsm compare")
+                raise MeshError(
+                    f"the faces change at frame {index}: use bsm.decode_frames, bsm decode or bsm compare"
+                )
             yield index, positions
 
     def changing_frames(self) -> Iterator[tuple[int, Positions]]:
@@ -162,7 +168,9 @@ class SequenceStream:
                     assert self._note is not None
                     first, last = frames.start, frames.stop - 1
                     what = f"frame {first} is" if first == last else f"frames {first} to {last} are"
-                    self._note(f"{what if frames else f'what follows frame {first} is'} lost: {error}")
+                    self._note(
+                        f"{what if frames else f'what follows frame {first} is'} lost: {error}"
+                    )
 
 
 def decode_through(chunks: Iterator[bytes], limits: Limits = DEFAULT_LIMITS) -> int:

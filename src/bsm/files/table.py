@@ -26,27 +26,33 @@ _NUMBERED, _TIMED = frozenset((START, STEP)), frozenset((START, STEP, TIMES, RAT
 class Format:
     """A format of meshes or frames; a unit or axis is that of all files, "named" by each, or "" (not said)."""
 
-    reader: str = ""  # of a mesh, in the first of the modules; that of a sequence is called so without _mesh
+    # Of a mesh, in the first of the modules; that of a sequence is called so without _mesh.
+    reader: str = ""
     writer: str = ""  # and its module
     own: bool = False  # read without the libraries of others
-    frames: str = ""  # a file may hold all frames of a sequence, where it is read ("r") and written ("w")
+    # A file may hold all frames of a sequence, where it is read ("r") and written ("w").
+    frames: str = ""
     beside: bool = False  # materials and images that its metadata name are read from its folder
     by_path: bool = False  # the reader is told the path
     apart: bool = False  # read in a process of its own, since its library may crash
     begins: bytes = b""  # what the first bytes of a file match, if they tell
     called: str = ""  # in errors, where a file has the suffix of another format
-    namesakes: bool = False  # files of other kinds have its suffix: .obj is also object code, .off a disk image
+    # Files of other kinds have its suffix: .obj is also object code, .off a disk image.
+    namesakes: bool = False
     unit: str = ""
     own_unit: bool = False  # only we read the unit in it
     up: str = ""
-    times: frozenset[str] = _NUMBERED  # metadata that frames say by their times, or by the numbers in their names
+    # Metadata that frames say by their times, or by the numbers in their names.
+    times: frozenset[str] = _NUMBERED
     empty: bytes | None = None  # a file of a frame without faces
     modules: tuple[str, ...] = ()  # loaded before such a file is read in a process of its own
 
 
 def _own(kind: str, begins: bytes = b"", **more: Any) -> Format:
     module = f"bsm.files.formats.{kind}"
-    return Format(f"read_{kind}", f"{module}:write_{kind}", True, begins=begins, modules=(module,), **more)
+    return Format(
+        f"read_{kind}", f"{module}:write_{kind}", True, begins=begins, modules=(module,), **more
+    )
 
 
 def _lines(kind: str) -> Format:
@@ -56,7 +62,11 @@ def _lines(kind: str) -> Format:
 _EMPTY_PLY = b"ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\nproperty float z\n"
 _EMPTY_PLY += b"element face 0\nproperty list uchar int vertex_indices\nend_header\n"
 _OBJ = rb"(?:[^\0]{0,65536}[\r\n])?[ \t]*v[ \t]+[-+\d.]"
-_GLTF = Format("read_gltf_mesh", frames="r", modules=("bsm.gltf.scene", "bsm.gltf.coding", "DracoPy", "PIL.Image"))
+_GLTF = Format(
+    "read_gltf_mesh",
+    frames="r",
+    modules=("bsm.gltf.scene", "bsm.gltf.coding", "DracoPy", "PIL.Image"),
+)
 _GLB = replace(
     _GLTF,
     frames="rw",
@@ -83,9 +93,13 @@ _WITH_MANY_NAMESAKES: dict[str, Any] = {"beside": True, "namesakes": True, "own_
 USD_FORMATS = ("usd", "usda", "usdc", "usdz")
 
 FORMATS: Mapping[str, Format] = {
-    "obj": _own("obj", _OBJ, called="an OBJ", empty=b"# a frame without faces\n", **_WITH_MANY_NAMESAKES),
+    "obj": _own(
+        "obj", _OBJ, called="an OBJ", empty=b"# a frame without faces\n", **_WITH_MANY_NAMESAKES
+    ),
     "ply": _own("ply", rb"\s*ply\b", called="a PLY", empty=_EMPTY_PLY, **_WITH_MANY_NAMESAKES),
-    "off": _own("off", rb"(?s:.{0,5})OFF", called="an OFF", empty=b"OFF\n0 0 0\n", **_WITH_MANY_NAMESAKES),
+    "off": _own(
+        "off", rb"(?s:.{0,5})OFF", called="an OFF", empty=b"OFF\n0 0 0\n", **_WITH_MANY_NAMESAKES
+    ),
     "glb": replace(_GLB, times=_TIMED),
     "gltf": _GLTF,
     "stl": _own("stl", rb"\s*solid", called="an STL", beside=True, empty=bytes(84)),
@@ -114,7 +128,10 @@ FORMATS: Mapping[str, Format] = {
         for kind in kinds.split()
     },
     **dict.fromkeys(
-        XDMF, Format("read_xdmf_mesh", frames="r", by_path=True, modules=("bsm.files.formats.xdmf", "h5py"))
+        XDMF,
+        Format(
+            "read_xdmf_mesh", frames="r", by_path=True, modules=("bsm.files.formats.xdmf", "h5py")
+        ),
     ),
     "npy": Format(frames="rw", times=frozenset()),
     "pc2": Format(frames="rw"),
@@ -130,32 +147,45 @@ _FOREIGN = {
 """Files of other kinds, by their first bytes."""
 GLTF = ("glb", "gltf")
 WITH_IMAGES_BESIDE = (*(kind for kind, row in FORMATS.items() if row.beside), "gltf", "dae")
-MESH_FORMATS = tuple(kind for kind, row in FORMATS.items() if row.own and row.reader)  # read and written by ourselves
+# Read and written by ourselves.
+MESH_FORMATS = tuple(kind for kind, row in FORMATS.items() if row.own and row.reader)
 WRITTEN_FORMATS = tuple(sorted(kind for kind, row in FORMATS.items() if row.writer))
-SEQUENCES_READ, ONE_FILE = (tuple(kind for kind, row in FORMATS.items() if how in row.frames) for how in "rw")
+SEQUENCES_READ, ONE_FILE = (
+    tuple(kind for kind, row in FORMATS.items() if how in row.frames) for how in "rw"
+)
 """Formats whose files hold a whole sequence, in and out."""
 SEQUENCE_FORMATS = (*ONE_FILE, *(name for name in WRITTEN_FORMATS if name not in ONE_FILE))
 """What `bsm decode` can make of a sequence; a form of a mesh is a file for each frame."""
-MESH_SUFFIXES = tuple(f".{kind}" for kind, row in FORMATS.items() if row.reader and kind not in USD_FORMATS)
+MESH_SUFFIXES = tuple(
+    f".{kind}" for kind, row in FORMATS.items() if row.reader and kind not in USD_FORMATS
+)
 """Suffixes of the mesh files that are found in folders and by patterns."""
 
 
 def is_mesh_name(path: str) -> bool:
     """Whether a file is called like a mesh that is read."""
-    return Path(path).suffix[1:].lower() in FORMATS and bool(FORMATS[Path(path).suffix[1:].lower()].reader)
+    return Path(path).suffix[1:].lower() in FORMATS and bool(
+        FORMATS[Path(path).suffix[1:].lower()].reader
+    )
 
 
 def format_of_bytes(data: bytes) -> str | None:
     """Return the format that the bytes of a file tell."""
     if len(data) == 84 + 50 * int.from_bytes(data[80:84], "little"):
         return "stl"
-    return next((kind for kind, row in FORMATS.items() if row.begins and re.match(row.begins, data)), None)
+    return next(
+        (kind for kind, row in FORMATS.items() if row.begins and re.match(row.begins, data)), None
+    )
 
 
 def other_kind(head: bytes, suffix: str) -> str:
     """Return the kind of a file whose first bytes are those of another format than its suffix; "" if they are not."""
-    kinds = _FOREIGN | {row.begins: row.called for row in FORMATS.values() if row.begins and row.called}
-    name = next((kind_name for begins, kind_name in kinds.items() if re.match(begins, head[:1024])), "")
+    kinds = _FOREIGN | {
+        row.begins: row.called for row in FORMATS.values() if row.begins and row.called
+    }
+    name = next(
+        (kind_name for begins, kind_name in kinds.items() if re.match(begins, head[:1024])), ""
+    )
     return "" if name == FORMATS[suffix].called else name
 
 

@@ -16,7 +16,11 @@ _MOST_NAMED, _MOST_SHAPES = 24, 1 << 12
 def rows_of(file_format: str) -> dict[str, str]:
     """The rows of taken.csv for a format."""
     every = csv.DictReader(Path(__file__).with_name("taken.csv").read_text().splitlines())
-    mine = [(row["owners"].split() or [""], row["names"]) for row in every if row["format"] == file_format]
+    mine = [
+        (row["owners"].split() or [""], row["names"])
+        for row in every
+        if row["format"] == file_format
+    ]
     return {owner: names for owners, names in mine for owner in owners}
 
 
@@ -24,7 +28,10 @@ class Taken:
     """The names that a reader takes, for each owner: whole, by their beginning (: or _ ends it), or name=value."""
 
     def __init__(self, rows: Mapping[str, str]) -> None:
-        self._rows = {owner: {*f"{words} {rows.get('', '')}".split()} for owner, words in {"": "", **rows}.items()}
+        self._rows = {
+            owner: {*f"{words} {rows.get('', '')}".split()}
+            for owner, words in {"": "", **rows}.items()
+        }
 
     def takes(self, owner: str, name: str, value: object = "") -> bool:
         row = self._rows.get(owner, self._rows[""])

@@ -42,12 +42,14 @@ from bsm.ground.console import Progress
 
 _TEXCOORD: tuple[Semantic, int] = ("texcoord", 2)
 _SEMANTICS = {"NORMAL": ("normal", 3), "TEXCOORD_0": _TEXCOORD, "TEXCOORD_1": _TEXCOORD}
-_GRID = 2.0**-15  # how far targets may move vertices wrongly, of the mesh's largest extent: as a grid of 14 bits
+# How far targets may move vertices wrongly, of the mesh's largest extent: as a grid of 14 bits.
+_GRID = 2.0**-15
 # Normals and colors as gltf-transform quantizes them for Draco, so that results compare.
 _QUALITIES = {"NORMAL": "10bits", "TANGENT": "9bits", "COLOR_0": "8bits"}
 _TURN = "0.002"  # of what targets add to directions: a tenth of a degree
 _COARSEST, _FINEST = 12, 22  # bits of texture coordinates; with more, they are exact
-_TEXELS, _SIDE = 0.25, 2048  # how many texels they may be off, and pixels of the side of an image that is not known
+# How many texels they may be off, and pixels of the side of an image that is not known.
+_TEXELS, _SIDE = 0.25, 2048
 # Below, an accessor of its own type takes more JSON than it saves.
 _SHORT = 1 << 10  # indices from which on 16 bits of each are worth their words
 COMPUTED = "normals are not stored: decoders compute them, within 1 degree"
@@ -79,7 +81,9 @@ def like(document: gltf.Document, primitive: Tree) -> str:
     key: list[tuple[Any, ...]] = []
     for name, index in sorted(arrays_of(primitive).items()):
         accessor = document.item("accessors", index)
-        key.append((name, accessor["componentType"], accessor["type"], accessor.get("normalized", False)))
+        key.append(
+            (name, accessor["componentType"], accessor["type"], accessor.get("normalized", False))
+        )
     return str(key)
 
 
@@ -94,8 +98,12 @@ def as_mesh(document: gltf.Document, bundle: Bundle, *, exact: bool = False) -> 
     opens = _opens(arrays, corners)
     positions = arrays.pop("POSITION")
     extent = float(np.ptp(positions, axis=0).max())
-    entries = {name: document.item("accessors", index) for name, index in arrays_of(primitives[0]).items()}
-    weights = {name: array for name, array in arrays.items() if name.startswith("WEIGHTS_") and not exact}
+    entries = {
+        name: document.item("accessors", index) for name, index in arrays_of(primitives[0]).items()
+    }
+    weights = {
+        name: array for name, array in arrays.items() if name.startswith("WEIGHTS_") and not exact
+    }
     # Weights must sum to 1, or a skinned vertex drifts; rounding each by itself breaks that.
     arrays |= _levels(weights)
     attributes, accessors, qualities = [], {"POSITION": (FLOAT, False)}, dict[str, str]()
@@ -116,7 +124,9 @@ def as_mesh(document: gltf.Document, bundle: Bundle, *, exact: bool = False) -> 
         numbers = np.repeat(np.arange(len(sizes)), sizes)
         # One stream for many primitives: a head costs as much as a small mesh. The label tells where each begins.
         attributes.append(Attribute(PIECE, numbers.astype(np.uint16), "face"))
-    mesh = TriangleMesh(positions.astype(np.float64), corners.astype(np.int32), tuple(attributes), {})
+    mesh = TriangleMesh(
+        positions.astype(np.float64), corners.astype(np.int32), tuple(attributes), {}
+    )
     return Carried(mesh, accessors, qualities, opens)
 
 
@@ -136,7 +146,9 @@ def _joined(
     for arrays in arrays_by_key.values():
         indexes += arrays.values()
     # Accessors may share bytes.
-    DEFAULT_LIMITS.check_memory(gltf.PER_NUMBER * sum(map(document.claimed, indexes)), 0, document.received)
+    DEFAULT_LIMITS.check_memory(
+        gltf.PER_NUMBER * sum(map(document.claimed, indexes)), 0, document.received
+    )
     begins, parts, count = dict[str, int](), list[dict[str, Array]](), 0
     for key, arrays in arrays_by_key.items():  # each combination of accessors is made once
         part = _vertices(document, arrays)
@@ -164,7 +176,9 @@ def _vertices(document: gltf.Document, indexes: Mapping[str, int]) -> dict[str, 
     for name, index in indexes.items():
         array = document.array(index)
         normalized = bool(document.item("accessors", index).get("normalized"))
-        is_geometry = name.rpartition("/")[2].startswith(("POSITION", "NORMAL", "TANGENT", "TEXCOORD_"))
+        is_geometry = name.rpartition("/")[2].startswith(
+            ("POSITION", "NORMAL", "TANGENT", "TEXCOORD_")
+        )
         is_narrow = normalized and (name.startswith("_") or array[0].nbytes % 4 > 0)
         if (is_geometry or is_narrow) and array.dtype.itemsize <= 2:
             # Quantized geometry is coded as the floats that it means, or the grid of the stream would be laid over
@@ -236,10 +250,16 @@ def _quality(name: str, array: Array, extent: float, texel: Callable[[str], floa
 def _texel(document: gltf.Document, bundle: Bundle, name: str) -> float:
     """The side of the smallest texel of the images that a set of texture coordinates places."""
     sides: list[float] = []
-    materials = {primitive["material"] for same in bundle for primitive in same if "material" in primitive}
+    materials = {
+        primitive["material"] for same in bundle for primitive in same if "material" in primitive
+    }
     for index in materials:
         material = document.item("materials", index)
-        groups = [material, material.get("pbrMetallicRoughness", {}), *material.get("extensions", {}).values()]
+        groups = [
+            material,
+            material.get("pbrMetallicRoughness", {}),
+            *material.get("extensions", {}).values(),
+        ]
         for group in groups:
             for key, info in group.items():
                 if key.endswith("Texture") and f"TEXCOORD_{set_of(info)}" == name:
@@ -265,9 +285,11 @@ def _carried(name: str, array: Array, normalized: bool) -> tuple[Attribute, int,
             return "COLOR_0 has numbers that are not between 0 and 1"
         return Attribute(name, array, "vertex", "color"), FLOAT, False
     # Integers are coded without loss, and identifiers are wrong if they are off at all.
-    if is_float and (array == np.rint(array)).all() and np.abs(array).max() <= WHOLE:  # identifiers, mostly
+    # Identifiers, mostly.
+    if is_float and (array == np.rint(array)).all() and np.abs(array).max() <= WHOLE:
         return Attribute(name, array.astype(np.int32)), FLOAT, False
-    if array[0].nbytes % 4:  # accessors keep their elements at multiples of four bytes; floats hold such integers
+    # Accessors keep their elements at multiples of four bytes; floats hold such integers.
+    if array[0].nbytes % 4:
         return Attribute(name, array), FLOAT, False
     return Attribute(name, array), COMPONENTS[array.dtype.name], normalized and not is_float
 
@@ -283,15 +305,20 @@ class BundleStream:
     stream: bytes
     shape: Drawn
     accessors: dict[str, tuple[int, bool]]
-    error: tuple[float, float]  # the largest of a vertex, and the largest of the diagonal of its component
+    # The largest of a vertex, and the largest of the diagonal of its component.
+    error: tuple[float, float]
     notes: tuple[str, ...]
 
 
-def code_bundle(carried: Carried | str, pieces: int, options: Mapping[str, Any]) -> BundleStream | str:
+def code_bundle(
+    carried: Carried | str, pieces: int, options: Mapping[str, Any]
+) -> BundleStream | str:
     if isinstance(carried, str):
         return carried
     names = {"*", *(attribute.name for attribute in carried.mesh.attributes)}
-    requests = {name: quality for name, quality in options.get("attributes", {}).items() if name in names}
+    requests = {
+        name: quality for name, quality in options.get("attributes", {}).items() if name in names
+    }
     qualities = requests if "*" in requests else {**carried.qualities, **requests}
     part_options = {"threads": 1, **options, "attributes": qualities}
     if not requests.keys() & {"*", "NORMAL"}:
@@ -314,7 +341,11 @@ def code_bundle(carried: Carried | str, pieces: int, options: Mapping[str, Any])
     if len(shape.index) >= _SHORT and shape.index.max() < 65535:
         accessors["indices"] = (COMPONENTS["uint16"], False)
     notes = encoder.losses
-    codings = [packet.declaration.coding for packet in coded.attempt.draft.body if isinstance(packet, Declared)]
+    codings = [
+        packet.declaration.coding
+        for packet in coded.attempt.draft.body
+        if isinstance(packet, Declared)
+    ]
     if RECOMPUTED in codings:
         notes = (*notes, COMPUTED)
     return BundleStream(stream, shape, accessors, error_of_positions, notes)

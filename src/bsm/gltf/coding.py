@@ -44,7 +44,9 @@ class Drawn:
     def pieces(self) -> list[tuple[int, int]]:
         """For each primitive the first of its corners, and how many these are."""
         starts = np.searchsorted(self.labels, np.unique(self.labels))
-        return [(int(start), int(end - start)) for start, end in pairwise([*starts, len(self.labels)])]
+        return [
+            (int(start), int(end - start)) for start, end in pairwise([*starts, len(self.labels)])
+        ]
 
 
 def drawn(mesh: TriangleMesh) -> Drawn:
@@ -64,7 +66,9 @@ def drawn(mesh: TriangleMesh) -> Drawn:
     rows: npt.NDArray[np.integer[Any]] = corners
     if seams:
         # glTF has one index for all attributes: a vertex is split wherever any of them differs.
-        different, rows = np.unique(np.stack([corners, *seams.values()], axis=1), axis=0, return_inverse=True)
+        different, rows = np.unique(
+            np.stack([corners, *seams.values()], axis=1), axis=0, return_inverse=True
+        )
         vertices, *value_rows = different.T
         seams = dict(zip(seams, value_rows))
     arrays = {"POSITION": mesh.positions.astype(np.float32)[vertices]}
@@ -107,10 +111,14 @@ def unpack_meshopt(data: bytes, extension: Tree) -> bytes:
         # Not an extra of the package: few files need it, and the message names it.
         library = imported("meshoptimizer", "", "")
     except DependencyError:
-        raise DependencyError("the meshes are compressed with meshopt; run: pip install meshoptimizer") from None
+        raise DependencyError(
+            "the meshes are compressed with meshopt; run: pip install meshoptimizer"
+        ) from None
     filters = {"OCTAHEDRAL": "oct", "QUATERNION": "quat", "EXPONENTIAL": "exp"}
     if mode not in ("ATTRIBUTES", "TRIANGLES", "INDICES") or filter_name not in ("NONE", *filters):
-        raise UnsupportedError(f"meshopt of mode {str(mode)[:20]} with filter {str(filter_name)[:20]} is not read here")
+        raise UnsupportedError(
+            f"meshopt of mode {str(mode)[:20]} with filter {str(filter_name)[:20]} is not read here"
+        )
     unpacked: Array
     with as_library_error("meshoptimizer", "a bufferView of this glTF"):
         if mode == "ATTRIBUTES":
@@ -130,11 +138,16 @@ def unpack_meshopt(data: bytes, extension: Tree) -> bytes:
 
 def unpack_draco(data: bytes) -> dict[int, Array]:
     """The arrays of a primitive that Draco has compressed, by their numbers; -1: its triangles."""
-    draco = imported("DracoPy", "the meshes are compressed with Draco, which DracoPy reads", "formats")
+    draco = imported(
+        "DracoPy", "the meshes are compressed with Draco, which DracoPy reads", "formats"
+    )
     with as_library_error("DracoPy", "a primitive of this glTF"):
         mesh = draco.decode(data)
     # glTF refers to attributes of Draco by these numbers, and not by their order.
-    tables = {int(attribute["unique_id"]): np.atleast_2d(attribute["data"]) for attribute in mesh.attributes}
+    tables = {
+        int(attribute["unique_id"]): np.atleast_2d(attribute["data"])
+        for attribute in mesh.attributes
+    }
     return tables | {-1: np.asarray(mesh.faces).reshape(-1, 1)}
 
 

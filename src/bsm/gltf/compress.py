@@ -51,7 +51,9 @@ def compress(
     """Code each primitive of triangles where that makes the scene smaller; `options` are those of `bsm.encode`."""
     # Its accessors have no bytes of their own: what a decoder fills would be coded again, with the errors of both.
     if EXTENSION in document.compressed:
-        raise FormatError(f"its geometry is compressed already, by {EXTENSION}; start from the scene before that")
+        raise FormatError(
+            f"its geometry is compressed already, by {EXTENSION}; start from the scene before that"
+        )
     scene = Rewritten(document, fallback)
     reasons, notes = Counter[str](), Counter[str]()
     bundles = bundles_of(document, scene.tree, reasons)
@@ -59,7 +61,9 @@ def compress(
     exact = options.get("preset") == "lossless"
     quality_options = {**({"*": "exact"} if exact else {}), **options.get("attributes", {})}
     # Meshes that touch share borders. With grids of their own, rounding would open cracks between them.
-    each = _one_grid(document, scene.tree, bundles, options) if one_grid else [options] * len(bundles)
+    each = (
+        _one_grid(document, scene.tree, bundles, options) if one_grid else [options] * len(bundles)
+    )
     each = [{**grid_options, "attributes": quality_options} for grid_options in each]
     sizes, coded = [sum(map(len, bundle)) for bundle in bundles], list[BundleStream | str]()
     meshes = (as_mesh(document, bundle, exact=exact) for bundle in bundles)
@@ -114,7 +118,9 @@ def restore(document: gltf.Document) -> bytes:
     for number, mesh in enumerate(document.items("meshes")):
         if EXTENSION in mesh.get("extensions", {}):
             # Accessors are restored one by one. Frames become morph targets in another way, which the message names.
-            raise UnsupportedError(f"mesh {number} moves, and plain glTF cannot hold it: decode its stream to .glb")
+            raise UnsupportedError(
+                f"mesh {number} moves, and plain glTF cannot hold it: decode its stream to .glb"
+            )
     return Rewritten(document, None).finished()
 
 
@@ -127,13 +133,19 @@ def _one_grid(
         entry = document.item("nodes", node)
         # A skin places vertices by joints and ignores the matrix of the node.
         matrices.setdefault(entry.get("mesh"), np.eye(4) if "skin" in entry else matrix)
-    meshes = {id(primitive): n for n, mesh in enumerate(tree["meshes"]) for primitive in mesh["primitives"]}
+    meshes = {
+        id(primitive): n
+        for n, mesh in enumerate(tree["meshes"])
+        for primitive in mesh["primitives"]
+    }
     placed = [matrices.get(meshes[id(bundle[0][0])], np.eye(4)) for bundle in bundles]
     # Nine digits: writers compute the same rotation in different ways.
     keys = [np.round(matrix[:3, :3], 9).tobytes() for matrix in placed]
     cells: dict[bytes, float] = {}
     corners = [same[0]["attributes"]["POSITION"] for bundle in bundles for same in bundle]
-    document.limits.check_memory(gltf.PER_NUMBER * sum(map(document.claimed, corners)), 0, document.received)
+    document.limits.check_memory(
+        gltf.PER_NUMBER * sum(map(document.claimed, corners)), 0, document.received
+    )
     for bundle, key in zip(bundles, keys, strict=True):
         tables = [document.numbers(same[0]["attributes"]["POSITION"]) for same in bundle]
         extent = max(float(np.ptp(table, axis=0).max(initial=0.0)) for table in tables)
@@ -144,5 +156,8 @@ def _one_grid(
         moved = np.linalg.lstsq(matrix[:3, :3], matrix[:3, 3], rcond=None)[0]
         origin = tuple((-moved % cell).tolist()) if cell else (0.0, 0.0, 0.0)
         grid = {"grid_cell": cell, "grid_origin": origin} if cell else {"grid": 14}
-        bundle_options.append({name: value for name, value in options.items() if name not in ("preset", "grid")} | grid)
+        bundle_options.append(
+            {name: value for name, value in options.items() if name not in ("preset", "grid")}
+            | grid
+        )
     return bundle_options

@@ -33,7 +33,8 @@ _MIMES = {kind: f"image/{kind}" for kind in ("png", "webp", "avif")}
 _MIMES |= {"jpg": "image/jpeg", "ktx": "image/ktx2", "dds": "image/vnd-ms.dds"}
 _WIDTHS = {"MAT2": 4, "MAT3": 9, "MAT4": 16, "SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}
 _TYPES = {width: name for name, width in _WIDTHS.items()}  # vectors rather than matrices
-_PADDED = {"MAT2": 2, "MAT3": 3}  # rows of matrices whose columns are padded, if their numbers are small
+# Rows of matrices whose columns are padded, if their numbers are small.
+_PADDED = {"MAT2": 2, "MAT3": 3}
 _MOST_BYTES = (1 << 32) - 1
 _MAGIC, _JSON, _BINARY = b"glTF", 0x4E4F534A, 0x004E4942
 WEBP = "EXT_texture_webp"
@@ -48,14 +49,19 @@ its items."""
 _KINDS: Mapping[str, tuple[Any, str]] = {
     "{": (dict, "an object"), "[": (list, "a list"), "$": (str, "a text"), "#": (int | float, "a number"),
 }  # fmt: skip
-_SHAPE = {owner: dict(re.findall(r"(\w+)([#$\[{]\S*)", f"{words} {_ROWS['']}")) for owner, words in _ROWS.items()}
+_SHAPE = {
+    owner: dict(re.findall(r"(\w+)([#$\[{]\S*)", f"{words} {_ROWS['']}"))
+    for owner, words in _ROWS.items()
+}
 _TAKEN = Taken({owner: re.sub(r"[#$\[{]\S*", "", words) for owner, words in _ROWS.items()})
 
 
 class Document:
     """A glTF as it was read; `folder` is where it lies."""
 
-    def __init__(self, data: bytes, folder: Path | None = None, limits: Limits = DEFAULT_LIMITS) -> None:
+    def __init__(
+        self, data: bytes, folder: Path | None = None, limits: Limits = DEFAULT_LIMITS
+    ) -> None:
         self._folder, self._own, self.limits = folder, len(data), limits
         text, self._binary = data, b""
         # By the first bytes and not by the name: files are often called .gltf and are binary, or the other way round.
@@ -70,7 +76,9 @@ class Document:
             raise FormatError("not a glTF: it has no asset")
         version = str(tree["asset"].get("version", "2.0"))
         if not version.startswith("2"):
-            raise FormatError(f"this is glTF {version[:20]}, and only glTF 2.0 is read; convert it first")
+            raise FormatError(
+                f"this is glTF {version[:20]}, and only glTF 2.0 is read; convert it first"
+            )
         # Types are checked here, once and by a table, so that no reader below meets a list where it expects a number.
         self.unread = _TAKEN.unread_names(_said(tree, "{}", "", "glTF"))
         self.tree: Tree = tree
@@ -78,7 +86,8 @@ class Document:
         self._sides: dict[object, int] = {}
         # A stream holds many accessors and is decoded once. Its arrays are charged when they are made, not when they
         # are named.
-        self._unpacked: dict[object, Any] = {}  # contents of compressed bufferViews, streams and primitives of Draco
+        # Contents of compressed bufferViews, streams and primitives of Draco.
+        self._unpacked: dict[object, Any] = {}
         self._charged = self._vertices = 0  # bytes of these, and vertices of streams and primitives
 
     # Memory may grow with the bytes that were really sent, files beside the document included.
@@ -90,7 +99,11 @@ class Document:
     @property
     def compressed(self) -> list[str]:
         """The extensions by which geometry is compressed."""
-        return [name for name in (EXTENSION, DRACO, *MESHOPT) if name in self.tree.get("extensionsUsed", [])]
+        return [
+            name
+            for name in (EXTENSION, DRACO, *MESHOPT)
+            if name in self.tree.get("extensionsUsed", [])
+        ]
 
     @property
     def streams(self) -> list[int]:
@@ -119,7 +132,9 @@ class Document:
         entries = self.items(name)
         # Python takes -1 as the last item, which no glTF means.
         if not isinstance(index, int) or not 0 <= index < len(entries):
-            raise FormatError(f"this glTF refers to number {json.dumps(index)} of {len(entries)} {name}")
+            raise FormatError(
+                f"this glTF refers to number {json.dumps(index)} of {len(entries)} {name}"
+            )
         return entries[index]
 
     def primitives(self) -> Iterator[Tree]:
@@ -135,7 +150,9 @@ class Document:
             data = self._binary
         claimed = _count(buffer, "byteLength")
         if len(data) < claimed:
-            raise TruncatedError(f"buffer {index} of this glTF should have {claimed} bytes, not {len(data)}")
+            raise TruncatedError(
+                f"buffer {index} of this glTF should have {claimed} bytes, not {len(data)}"
+            )
         return data
 
     def view(self, index: object) -> bytes:
@@ -147,7 +164,9 @@ class Document:
         # bytes.
         unread = self.unread_in(view) & {*self.tree.get("extensionsRequired", [])}
         if unread:
-            raise UnsupportedError(f"bufferView {index} of this glTF is packed by {min(unread)}, which is not read")
+            raise UnsupportedError(
+                f"bufferView {index} of this glTF is packed by {min(unread)}, which is not read"
+            )
         extensions = view.get("extensions", {})
         if EXTENSION in extensions:
             return memoryview(self._array_of_stream(extensions[EXTENSION]))
@@ -215,18 +234,24 @@ class Document:
         if key not in self._unpacked:
             unpacked = coding.unpack_draco(self.view(extension["bufferView"]))
             self._unpacked[key] = unpacked
-            self._charge(sum(table.nbytes for table in unpacked.values()), max(map(len, unpacked.values())))
+            self._charge(
+                sum(table.nbytes for table in unpacked.values()), max(map(len, unpacked.values()))
+            )
         values: Array = self._unpacked[key].get(number, np.zeros((0, 0)))
         # Accessors repeat what Draco holds. Where they disagree, one of them is damaged.
         if values.shape != (count, width) and not (number < 0 and values.shape[1] == width):
-            raise FormatError(f"Draco holds {values.shape} numbers for accessor {index} of {count} values")
+            raise FormatError(
+                f"Draco holds {values.shape} numbers for accessor {index} of {count} values"
+            )
         return values.astype(kind)
 
     def _plain(self, view: Tree, index: object) -> memoryview:
         data = self.buffer(view.get("buffer"))
         start, size = _count(view, "byteOffset"), _count(view, "byteLength")
         if start + size > len(data):
-            raise TruncatedError(f"bufferView {index} of this glTF ends after the {len(data)} bytes of its buffer")
+            raise TruncatedError(
+                f"bufferView {index} of this glTF ends after the {len(data)} bytes of its buffer"
+            )
         return memoryview(data)[start : start + size]
 
     def numbers(self, index: object, *, unscaled: bool = False) -> Array:
@@ -237,11 +262,15 @@ class Document:
             raise FormatError(f"accessor {index} of this glTF is of no type that is known")
         count = _count(accessor, "count")
         if count * width > MOST_NUMBERS:
-            raise LimitError(f"accessor {index} of this glTF has {count} values; the limit is {MOST_NUMBERS} numbers")
+            raise LimitError(
+                f"accessor {index} of this glTF has {count} values; the limit is {MOST_NUMBERS} numbers"
+            )
         # Columns of matrices begin at multiples of four bytes. No mesh needs matrices with gaps between their columns,
         # so they are refused rather than read wrongly.
         if form in _PADDED and _PADDED[form] * np.dtype(kind).itemsize % 4:
-            raise UnsupportedError(f"accessor {index} of this glTF holds small matrices of small numbers")
+            raise UnsupportedError(
+                f"accessor {index} of this glTF holds small matrices of small numbers"
+            )
         if "bufferView" in accessor:
             values = self._strided(accessor, kind, count, width)
         elif isinstance(index, int) and index in self.of_draco:
@@ -320,7 +349,9 @@ class Document:
         stride = _count(self.item("bufferViews", where["bufferView"]), "byteStride") or item
         # Checked as numbers before numpy sees them: ndarray with strides reads wherever it is told to.
         if stride < item or (count and offset + stride * (count - 1) + item > len(data)):
-            raise TruncatedError(f"{count} values of {item} bytes do not fit into {len(data)} bytes of their view")
+            raise TruncatedError(
+                f"{count} values of {item} bytes do not fit into {len(data)} bytes of their view"
+            )
         values: Array = np.ndarray((count, width), kind, data, offset, (stride, size))
         # Copied, so that a few rows of a large buffer do not keep all of it.
         return values.copy()
@@ -381,7 +412,9 @@ def _said(value: Any, kind: str, path: str, owner: str) -> Iterator[Said]:
     """The names in a value that must be of a kind, and in those of its objects that readers take."""
     (python_type, kind_name), inside = _KINDS[kind[0]], kind[1:-1]
     if not isinstance(value, python_type) or isinstance(value, bool):
-        raise FormatError(f"in this glTF, {path[1:]} must be {kind_name}, not {json.dumps(value)[:40]}")
+        raise FormatError(
+            f"in this glTF, {path[1:]} must be {kind_name}, not {json.dumps(value)[:40]}"
+        )
     if inside.isdecimal() and len(value) != int(inside):
         raise FormatError(f"in this glTF, {path[1:]} must have {inside} values, not {len(value)}")
     if kind[0] == "[":
@@ -420,7 +453,11 @@ class Growing:
     """A tree that grows, and the bytes of its buffer, which wait in a file."""
 
     def __init__(self, file: IO[bytes], tree: Tree | None = None) -> None:
-        begun: Tree = {"asset": {"version": "2.0", "generator": "bsm"}, "scene": 0, "scenes": [{"nodes": []}]}
+        begun: Tree = {
+            "asset": {"version": "2.0", "generator": "bsm"},
+            "scene": 0,
+            "scenes": [{"nodes": []}],
+        }
         self.tree: Tree = begun if tree is None else tree
         # The buffer waits in a file, because the JSON before it can only be written when all offsets are known.
         self._file, self.size = file, 0
@@ -430,7 +467,9 @@ class Growing:
         entries.append(entry)
         return len(entries) - 1
 
-    def accessor(self, component: int, count: int, width: int, view: int | None = None, **more: Any) -> int:
+    def accessor(
+        self, component: int, count: int, width: int, view: int | None = None, **more: Any
+    ) -> int:
         entry: Tree = {} if view is None else {"bufferView": view}
         entry |= {"componentType": component, "count": count, "type": _TYPES[width]}
         return self.add("accessors", entry | more)
@@ -442,7 +481,9 @@ class Growing:
         padded = data + bytes(-len(data) % 4)
         self.size += len(padded)
         if self.size > _MOST_BYTES:
-            raise LimitError("this takes more than the 4 GiB of a GLB; take fewer frames (--frames A:B), or write USD")
+            raise LimitError(
+                "this takes more than the 4 GiB of a GLB; take fewer frames (--frames A:B), or write USD"
+            )
         self._file.write(padded)
         return start
 
@@ -500,7 +541,9 @@ def bounds_of(values: Array) -> Tree:
 def _count(where: Tree, name: str) -> int:
     value = where.get(name, 0)
     if not isinstance(value, int) or isinstance(value, bool) or not 0 <= value < 1 << 53:
-        raise FormatError(f"{name} of this glTF is {repr(value)[:40]}, not a number of bytes or values")
+        raise FormatError(
+            f"{name} of this glTF is {repr(value)[:40]}, not a number of bytes or values"
+        )
     return value
 
 
@@ -513,7 +556,9 @@ def triangles_of(document: Document, primitive: Tree, count: int) -> npt.NDArray
     indices: npt.NDArray[np.int64] = np.arange(count)
     if "indices" in primitive:
         indices = document.numbers(primitive["indices"])[:, 0].astype(np.int64)
-    mode = TRIANGLES if DRACO in primitive.get("extensions", {}) else primitive.get("mode", TRIANGLES)
+    mode = (
+        TRIANGLES if DRACO in primitive.get("extensions", {}) else primitive.get("mode", TRIANGLES)
+    )
     if mode == TRIANGLES:
         triangles = indices[: len(indices) // 3 * 3].reshape(-1, 3)
     else:
@@ -522,7 +567,8 @@ def triangles_of(document: Document, primitive: Tree, count: int) -> npt.NDArray
         else:
             step = np.arange(max(len(indices) - 2, 0))
             triangles = indices[np.column_stack([step + 1, step + 2, 0 * step])]
-        triangles = triangles[~degenerate(triangles)]  # not those that only lead to the next piece of a strip
+        # Not those that only lead to the next piece of a strip.
+        triangles = triangles[~degenerate(triangles)]
     if triangles.size and not (triangles.min() >= 0 and triangles.max() < count):
         raise FormatError(f"a face of this glTF refers to vertex {triangles.max()} of {count}")
     return triangles

@@ -121,7 +121,9 @@ class Rewritten(gltf.Growing):
         unknown = set().union(*map(document.unread_in, document.items("buffers")))
         packed = set().union(*map(document.unread_in, document.items("bufferViews")))
         if unknown or (packed and len(document.items("buffers")) > 1):
-            raise UnsupportedError(f"{min(unknown | packed)} may name bytes of buffers that would move")
+            raise UnsupportedError(
+                f"{min(unknown | packed)} may name bytes of buffers that would move"
+            )
         # A reader that unpacks these bufferViews finds them by offsets in the old buffer, so nothing in it may move.
         self._whole = bool(packed)  # then all bytes stay where they are
         if self._whole:
@@ -137,7 +139,8 @@ class Rewritten(gltf.Growing):
         self._moved: set[int] = set()  # bufferViews whose bytes are in the new buffer
         self._virtual = 0  # bytes of what decoders fill
         self._streams: dict[bytes, int] = {}  # the bufferView of each stream
-        self._shared: dict[object, int] = {}  # bufferViews and accessors of streams, by what they are
+        # bufferViews and accessors of streams, by what they are.
+        self._shared: dict[object, int] = {}
         self.plain: list[bytes] = []
         self.images: list[ImageComparison] = []
 
@@ -151,7 +154,9 @@ class Rewritten(gltf.Growing):
         if not streams:
             return False
         entries = {index: self._document.item("accessors", index) for index in freed}
-        views = {entry["bufferView"] for entry in entries.values() if "bufferView" in entry} - self.foreign_numbers
+        views = {
+            entry["bufferView"] for entry in entries.values() if "bufferView" in entry
+        } - self.foreign_numbers
         # JSON counts as well: a small mesh may save fewer bytes than its stream needs words.
         size_before = _WORDS * (len(freed) + len(views))
         for number, entry in entries.items():
@@ -192,7 +197,9 @@ class Rewritten(gltf.Growing):
                 primitive["indices"] = indices
                 # Strips and fans were made triangles, which is the default.
                 primitive.pop("mode", None)
-                primitive["attributes"] = {name: places[name] for name in primitive["attributes"] if name in places}
+                primitive["attributes"] = {
+                    name: places[name] for name in primitive["attributes"] if name in places
+                }
                 for number, target in enumerate(primitive.get("targets", [])):
                     target |= {name: places[f"{number}/{name}"] for name in target}
 
@@ -237,7 +244,9 @@ class Rewritten(gltf.Growing):
             # An image that its rule makes larger stays as it is.
             smaller_data = smaller(data, rule) if rule else None
             if rule:
-                self.images.append(compare_image(name or f"image {number}", data, smaller_data or data))
+                self.images.append(
+                    compare_image(name or f"image {number}", data, smaller_data or data)
+                )
             if rule and smaller_data:
                 kind = f"image/{rule.kind}"
             if kind and (smaller_data or "uri" in image):
@@ -271,7 +280,10 @@ class Rewritten(gltf.Growing):
         if self.size:
             tree["buffers"].append({"byteLength": self.size})
         if self._virtual:
-            virtual_buffer: Tree = {"byteLength": self._virtual, "extensions": {EXTENSION: {"fallback": True}}}
+            virtual_buffer: Tree = {
+                "byteLength": self._virtual,
+                "extensions": {EXTENSION: {"fallback": True}},
+            }
             if self._fallback:
                 virtual_buffer["uri"] = quote(self._fallback)
             tree["buffers"].append(virtual_buffer)
@@ -296,7 +308,9 @@ class Rewritten(gltf.Growing):
             # Only the bytes that somebody still uses move to the new buffer.
             if entry.get("bufferView") in shared_views and "sparse" not in entry:
                 strided = "byteStride" in self._document.item("bufferViews", entry["bufferView"])
-                entry["bufferView"] = self.table(self._document.array(numbers[id(entry)]), packed=not strided)
+                entry["bufferView"] = self.table(
+                    self._document.array(numbers[id(entry)]), packed=not strided
+                )
                 entry.pop("byteOffset", None)
 
     def _write_draco(self) -> None:
@@ -312,12 +326,17 @@ class Rewritten(gltf.Growing):
                 accessor = self.tree["accessors"][index]
                 if index < len(self._document.items("accessors")) and "bufferView" not in accessor:
                     values = self._document.array(index)
-                    accessor |= {"bufferView": self.table(values, packed=not name), "count": len(values)}
+                    accessor |= {
+                        "bufferView": self.table(values, packed=not name),
+                        "count": len(values),
+                    }
 
     def _place_views(self) -> None:
         """Drop replaced views, and put the bytes of the others into the new buffer."""
         views: list[Tree] = self.tree.setdefault("bufferViews", [])
-        used = {holder[key] for holder, key in references(self.tree, "bufferViews")} | self.foreign_numbers
+        used = {
+            holder[key] for holder, key in references(self.tree, "bufferViews")
+        } | self.foreign_numbers
         for number, view in enumerate(views[: len(self._document.items("bufferViews"))]):
             extensions = view.get("extensions", {})
             packed = [name for name in (EXTENSION, *MESHOPT) if extensions.pop(name, None)]
@@ -339,7 +358,9 @@ class Rewritten(gltf.Growing):
         places = list(references(self.tree, kind))
         every = set(range(len(entries)))
         fixed = self.foreign_numbers & every
-        kept_numbers = {holder[key] for holder, key in places} | (every - self._before[kind]) | fixed
+        kept_numbers = (
+            {holder[key] for holder, key in places} | (every - self._before[kind]) | fixed
+        )
         # Numbers that unknown extensions may name stay. All others close ranks, as validators want no unused entries.
         free = iter(sorted(every - fixed))
         numbers: dict[int, int] = {}
@@ -359,7 +380,10 @@ def _words(accessor: Tree) -> Tree:
 def _short(node: Any) -> Any:
     """Return JSON with numbers as short as single precision allows; extras and extensions stay as they are."""
     if isinstance(node, dict):
-        return {key: value if key in ("extras", "extensions") else _short(value) for key, value in node.items()}
+        return {
+            key: value if key in ("extras", "extensions") else _short(value)
+            for key, value in node.items()
+        }
     if isinstance(node, list):
         return [_short(value) for value in node]
     if not isinstance(node, float) or abs(node) > _MOST or np.float32(node) != node:

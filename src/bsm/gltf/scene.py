@@ -17,9 +17,26 @@ from bsm.files import conventions, table
 from bsm.files.formats import polygons
 from bsm.files.formats.appearance import Material, appearance
 from bsm.files.formats.metadata import Value, described
-from bsm.files.motion.frames import LIKELY_RATES, Frames, Wanted, between, painted_like, rate_of_times
+from bsm.files.motion.frames import (
+    LIKELY_RATES,
+    Frames,
+    Wanted,
+    between,
+    painted_like,
+    rate_of_times,
+)
 from bsm.files.parsing import Doubles, Ints, as_format_error, require_counts
-from bsm.gltf.coding import INSTANCING, MATTE, STRENGTH, TRIANGLES, TRIANGULAR, UNLIT, Array, Tree, texture_of
+from bsm.gltf.coding import (
+    INSTANCING,
+    MATTE,
+    STRENGTH,
+    TRIANGLES,
+    TRIANGULAR,
+    UNLIT,
+    Array,
+    Tree,
+    texture_of,
+)
 from bsm.gltf.document import MOST_NUMBERS, PER_NUMBER, Document, read_document, triangles_of
 
 PER_INSTANCE = 2000  # bytes of the node of an instance, at most
@@ -38,8 +55,14 @@ class Keyframes:
 
     def __post_init__(self) -> None:
         keys = len(self.times)
-        if not keys or len(self.values) != values_per_key(self.interpolation) * keys or (np.diff(self.times) < 0).any():
-            raise FormatError(f"a curve has {len(self.values)} values for {keys} keys, or keys out of order")
+        if (
+            not keys
+            or len(self.values) != values_per_key(self.interpolation) * keys
+            or (np.diff(self.times) < 0).any()
+        ):
+            raise FormatError(
+                f"a curve has {len(self.values)} values for {keys} keys, or keys out of order"
+            )
         if not (np.isfinite(self.times).all() and np.isfinite(self.values).all()):
             raise FormatError("a curve has a number that is not finite")
 
@@ -74,8 +97,12 @@ class Keyframes:
         keys = self.values.reshape(len(self.times), 3, -1)
         square = share * share
         cube = share * share * share
-        value: Doubles = (2 * cube - 3 * square + 1) * keys[before, 1] + (3 * square - 2 * cube) * keys[after, 1]
-        value += span * ((cube - 2 * square + share) * keys[before, 2] + (cube - square) * keys[after, 0])
+        value: Doubles = (2 * cube - 3 * square + 1) * keys[before, 1] + (
+            3 * square - 2 * cube
+        ) * keys[after, 1]
+        value += span * (
+            (cube - 2 * square + share) * keys[before, 2] + (cube - square) * keys[after, 0]
+        )
         return value
 
 
@@ -92,7 +119,9 @@ def _between_rotations(earlier: Doubles, later: Doubles, share: float) -> Double
         nearer = -later if cosine < 0 else later
         return earlier + share * (nearer - earlier)
     angle = float(np.arccos(abs(cosine)))
-    arc: Doubles = np.sin((1 - share) * angle) * earlier + np.sign(cosine) * np.sin(share * angle) * later
+    arc: Doubles = (
+        np.sin((1 - share) * angle) * earlier + np.sign(cosine) * np.sin(share * angle) * later
+    )
     return arc
 
 
@@ -174,16 +203,24 @@ def place_instances(document: Document, limits: Limits) -> None:
     nodes = document.items("nodes")
     count = 0
     for node in list(nodes):
-        accessors = {name.lower(): i for name, i in _instance_attributes(node).items() if name in _OF_INSTANCES}
+        accessors = {
+            name.lower(): i
+            for name, i in _instance_attributes(node).items()
+            if name in _OF_INSTANCES
+        }
         if "mesh" not in node or "skin" in node or not accessors:
             continue
         count += max(map(document.count, accessors.values()))
         # A few bytes of JSON can ask for a million instances, without bytes behind them.
         limits.check_memory(PER_INSTANCE * count, 0, document.received)
-        tables = {name: document.numbers(index).astype(np.float64) for name, index in accessors.items()}
+        tables = {
+            name: document.numbers(index).astype(np.float64) for name, index in accessors.items()
+        }
         instances = len(next(iter(tables.values())))
         if any(table.shape != (instances, len(_REST[name])) for name, table in tables.items()):
-            raise FormatError("the places of a mesh that is drawn several times are not as many, or of other sizes")
+            raise FormatError(
+                "the places of a mesh that is drawn several times are not as many, or of other sizes"
+            )
         shared: Tree = {name: node[name] for name in ("name", "weights") if name in node}
         shared["mesh"] = node.pop("mesh")
         children = range(len(nodes), len(nodes) + instances)
@@ -276,8 +313,12 @@ class Scene:
                 numbers += target_numbers
         require_counts(self._limits, vertices=vertices)
         if numbers > MOST_NUMBERS:
-            raise LimitError(f"the meshes of this glTF have {numbers} numbers; the limit is {MOST_NUMBERS}")
-        self._limits.check_memory(PER_NUMBER * numbers + 4 * characters, vertices, document.received)
+            raise LimitError(
+                f"the meshes of this glTF have {numbers} numbers; the limit is {MOST_NUMBERS}"
+            )
+        self._limits.check_memory(
+            PER_NUMBER * numbers + 4 * characters, vertices, document.received
+        )
 
     def _size(self, mesh: Tree) -> tuple[int, int, int]:
         """Return the vertices of a mesh, the numbers of its attributes and indices, and those of its targets."""
@@ -330,7 +371,8 @@ class Scene:
     @property
     def keys(self) -> Doubles:
         # One table of times often serves a hundred curves.
-        times = {id(curve.times): curve.times for curve in self._curves.values()}  # samplers serve many channels
+        # Samplers serve many channels.
+        times = {id(curve.times): curve.times for curve in self._curves.values()}
         # Rounded to microseconds, because exporters compute equal times in different ways.
         return np.unique(np.round(np.concatenate([np.empty(0), *times.values()]), 6))
 
@@ -398,7 +440,9 @@ class Scene:
             node = self._nodes[part.node]
             mesh = self._document.item("meshes", node["mesh"])
             default_weights = mesh.get("weights", [0.0] * len(targets))
-            weights = np.asarray(node.get("weights", default_weights), np.float64).reshape(len(targets))
+            weights = np.asarray(node.get("weights", default_weights), np.float64).reshape(
+                len(targets)
+            )
         # Of hundreds of targets, a face uses a handful at a time.
         used = np.flatnonzero(weights)
         return base + np.asarray(np.tensordot(weights[used], targets[used], 1))
@@ -433,7 +477,9 @@ class Scene:
             else:
                 width = len(_REST[path])
             if values.shape[1] != width:
-                raise FormatError(f"the {path} of node {node} is animated by {values.shape[1]} numbers, not {width}")
+                raise FormatError(
+                    f"the {path} of node {node} is animated by {values.shape[1]} numbers, not {width}"
+                )
             curves[int(node), path] = Keyframes(times, values, interpolation, path == "rotation")
         return curves
 
@@ -479,7 +525,9 @@ class Scene:
             inverse = self._document.numbers(skin["inverseBindMatrices"]).astype(np.float64)
         if inverse.shape[0] < len(joints) or inverse.shape[1] != 16:
             raise FormatError(f"skin {index} has {len(inverse)} matrices for {len(joints)} joints")
-        self._skins[index] = Skin(joints, inverse[: len(joints)].reshape(-1, 4, 4).transpose(0, 2, 1).copy())
+        self._skins[index] = Skin(
+            joints, inverse[: len(joints)].reshape(-1, 4, 4).transpose(0, 2, 1).copy()
+        )
         return self._skins[index]
 
     def _part(self, node: int, primitive: Tree, skin: Skin | None, name: str) -> Primitive:
@@ -487,18 +535,26 @@ class Scene:
         accessors = primitive["attributes"]
         count = document.count(accessors["POSITION"])
         holders = (accessors, *primitive.get("targets", []))
-        points = np.array([self._table(holder.get("POSITION"), count, 3, "positions") for holder in holders])
+        points = np.array(
+            [self._table(holder.get("POSITION"), count, 3, "positions") for holder in holders]
+        )
         colors = np.zeros((0, count, 4))
         if self._painted:
             # White, to which targets add nothing.
             shades = [self._color_table(accessors.get("COLOR_0"), count, 1.0)]
-            shades += [self._color_table(target.get("COLOR_0"), count, 0.0) for target in holders[1:]]
+            shades += [
+                self._color_table(target.get("COLOR_0"), count, 0.0) for target in holders[1:]
+            ]
             colors = np.array(shades)
-            accessors = {semantic: index for semantic, index in accessors.items() if semantic != "COLOR_0"}
+            accessors = {
+                semantic: index for semantic, index in accessors.items() if semantic != "COLOR_0"
+            }
         faces = triangles_of(document, primitive, count)
         joints, weights = np.zeros((count, 0), np.int64), np.zeros((count, 0))
         if skin is not None:
-            joints, weights = self._joints_and_weights(accessors, count, f"node {node}", len(skin.joints))
+            joints, weights = self._joints_and_weights(
+                accessors, count, f"node {node}", len(skin.joints)
+            )
         columns = self._columns(accessors, count)
         normals = np.zeros((0, count, 3))
         rows: Any = slice(None)
@@ -511,7 +567,9 @@ class Scene:
             rows = first_of(origin)
             faces = origin[faces].astype(np.int64)
         elif "NORMAL" in accessors:
-            normals = np.array([self._table(holder.get("NORMAL"), count, 3, "normals") for holder in holders])
+            normals = np.array(
+                [self._table(holder.get("NORMAL"), count, 3, "normals") for holder in holders]
+            )
         if self._at_rest and self._shares_table(primitive):
             rows, faces = np.unique(faces, return_inverse=True)
             columns = tuple(replace(column, values=column.values[rows]) for column in columns)
@@ -534,7 +592,9 @@ class Scene:
             name,
         )
 
-    def _joints_and_weights(self, accessors: Tree, count: int, owner: str, most: int) -> tuple[Ints, Doubles]:
+    def _joints_and_weights(
+        self, accessors: Tree, count: int, owner: str, most: int
+    ) -> tuple[Ints, Doubles]:
         """Return the joints of each vertex, all sets side by side, and their weights, whose sum is 1."""
         joint_sets: list[Doubles] = []
         weight_sets: list[Doubles] = []
@@ -593,7 +653,8 @@ class Scene:
                 columns.append(_color_column(values, f"color{suffix}", self.notes))
             elif kind == "TEXCOORD":
                 coordinates = values.astype(np.float64)
-                coordinates[:, 1] = 1 - coordinates[:, 1]  # glTF counts from the top, we from the bottom
+                # glTF counts from the top, we from the bottom.
+                coordinates[:, 1] = 1 - coordinates[:, 1]
                 compact = polygons.compact(coordinates)
                 columns.append(polygons.Column(f"texcoord{suffix}", compact, "vertex", "texcoord"))
             else:
@@ -606,7 +667,9 @@ def _color_column(values: Array, name: str, notes: list[str]) -> polygons.Column
     """Return colors, which are linear in glTF, as sRGB; numbers above 1 mean nothing as colors and stay as they are."""
     # Such numbers are data under the name of a color. To clip them would lose them.
     if values.dtype.kind == "f" and values.size and not 0 <= values.min() <= values.max() <= 1:
-        notes.append(f"parts whose {name} has values above 1, kept as linear numbers and not as a color")
+        notes.append(
+            f"parts whose {name} has values above 1, kept as linear numbers and not as a color"
+        )
         return polygons.Column(name, polygons.compact(values))
     return polygons.Column(name, conventions.srgb_colors(values), semantic="color")
 
@@ -620,7 +683,8 @@ _NO_SURFACES = "points and lines were left out"
 
 def read_gltf_mesh(document: Document) -> polygons.MeshFile:
     """Read a scene at rest as one mesh: vertices and faces in the order of the file."""
-    with as_format_error("glTF"), np.errstate(all="ignore"):  # a later check refuses infinite values
+    # A later check refuses infinite values.
+    with as_format_error("glTF"), np.errstate(all="ignore"):
         # At rest all vertices come back as they are; of an animation only those that move apart.
         scene = Scene(document, None, document.limits)
         document.limits.check_work(3 * scene.work, scene.vertices, document.received)
@@ -650,13 +714,17 @@ def _unread(document: Document, *, at_rest: bool) -> tuple[str, ...]:
     notes += [name for name in document.unread if not name.startswith(skin_names)]
     nodes_placed = parents_of(document)
     if any("mesh" in node for number, node in enumerate(nodes) if number not in nodes_placed):
-        notes.append("other scenes" if len(document.items("scenes")) > 1 else "nodes outside of the scene")
+        notes.append(
+            "other scenes" if len(document.items("scenes")) > 1 else "nodes outside of the scene"
+        )
     for name, value in _all_extras(document):
         if not isinstance(value, str | int | float):
             notes.append(f"extras ({name})")
     for node in nodes:
         names = _instance_attributes(node)
-        notes += [f"{name} of instances" for name in names if "skin" in node or name not in _OF_INSTANCES]
+        notes += [
+            f"{name} of instances" for name in names if "skin" in node or name not in _OF_INSTANCES
+        ]
     return tuple(dict.fromkeys(notes))
 
 
@@ -697,7 +765,11 @@ def read_gltf(path: str, request: Wanted, limits: Limits = DEFAULT_LIMITS) -> Fr
         notes.append(f"left out: {', '.join(unread)}")
     notes += between("key times", (keys - keys[0]) * rate, rate)
     written_times = table.FORMATS["glb"].times
-    metadata = {name: value for name, value in first_frame.mesh.metadata.items() if name not in written_times}
+    metadata = {
+        name: value
+        for name, value in first_frame.mesh.metadata.items()
+        if name not in written_times
+    }
     if keys[0]:
         metadata[table.START] = round(float(keys[0]) * rate, 3)
     mesh = replace(first_frame.mesh, metadata=metadata)
@@ -706,14 +778,18 @@ def read_gltf(path: str, request: Wanted, limits: Limits = DEFAULT_LIMITS) -> Fr
         meshes = (painted_like(mesh, _painted(scene, mesh, time)) for time in times)
     frames = map(scene.at, times)
     distinct_notes = tuple(dict.fromkeys(notes))
-    return Frames(mesh.faces, count, frames, mesh.attributes, distinct_notes, rate, mesh.metadata, meshes)
+    return Frames(
+        mesh.faces, count, frames, mesh.attributes, distinct_notes, rate, mesh.metadata, meshes
+    )
 
 
 def _painted(scene: Scene, mesh: TriangleMesh, time: float) -> TriangleMesh:
     """Return the mesh at a time, with its colors then."""
     colors = _color_column(scene.colors(time), "color", []).values
     attributes = [
-        replace(attribute, values=colors) if (attribute.name, attribute.domain) == ("color", "vertex") else attribute
+        replace(attribute, values=colors)
+        if (attribute.name, attribute.domain) == ("color", "vertex")
+        else attribute
         for attribute in mesh.attributes
     ]
     return replace(mesh, positions=scene.at(time), attributes=tuple(attributes))
@@ -723,14 +799,20 @@ def _choose_animation(document: Document, choice: str) -> tuple[int, Tree]:
     """Return the animation of a name or a number, which is counted from 0, and its number."""
     animations = document.items("animations")
     if not animations:
-        raise FormatError("this glTF has no animation; leave out --animation to encode it as one mesh")
+        raise FormatError(
+            "this glTF has no animation; leave out --animation to encode it as one mesh"
+        )
     names = [str(animation.get("name", "")) for animation in animations]
     if choice in names:
         number = names.index(choice)
         return number, animations[number]
     if choice and not choice.isdecimal():
         quoted = ", ".join(map(repr, filter(None, names)))
-        there_are = f"the names are {quoted}" if quoted else f"there are {len(names)} without names, 0 is the first"
+        there_are = (
+            f"the names are {quoted}"
+            if quoted
+            else f"there are {len(names)} without names, 0 is the first"
+        )
         raise OptionError(f"no animation {choice!r}; {there_are}")
     number = int(choice or 0)
     if number >= len(animations):
@@ -763,7 +845,9 @@ def _joined(scene: Scene, document: Document, time: float, limits: Limits) -> po
             sizes = np.full(len(part.faces), 3)
             numbers = np.full(len(part.faces), materials.index(part.material))
             corners = part.faces.reshape(-1)
-            yield polygons.Part(positions[begin:end], sizes, corners, part.columns, numbers, part.name)
+            yield polygons.Part(
+                positions[begin:end], sizes, corners, part.columns, numbers, part.name
+            )
             begin = end
 
     counts = [(part.vertices, len(part.faces)) for part in parts]
@@ -781,12 +865,16 @@ def _joined(scene: Scene, document: Document, time: float, limits: Limits) -> po
     if transparent or any(number >= 0 for number in materials):
         words, images = _Materials(document).read(materials, transparent)
         metadata |= described(words) | images
-    reasons = {str(image.get("uri", "")): document.why_absent(image) for image in document.items("images")}
+    reasons = {
+        str(image.get("uri", "")): document.why_absent(image) for image in document.items("images")
+    }
     notes = list(joined.notes)
     for uri, reason in reasons.items():
         if reason:
             notes.append(f"the image {unquote(uri)[:80]} was left out: {reason}")
-    return replace(joined, notes=tuple(notes), columns=columns, metadata={**metadata, **joined.metadata})
+    return replace(
+        joined, notes=tuple(notes), columns=columns, metadata={**metadata, **joined.metadata}
+    )
 
 
 def _metadata_of_extras(document: Document) -> dict[str, Value]:
@@ -826,7 +914,9 @@ class _Materials:
         self._images: dict[str, Value] = {}
         self._image_bytes = 0
 
-    def read(self, materials: list[int], transparent: bool) -> tuple[dict[int, Material], dict[str, Value]]:
+    def read(
+        self, materials: list[int], transparent: bool
+    ) -> tuple[dict[int, Material], dict[str, Value]]:
         """Return materials by place; what glTF draws opaque says so, where some colors are transparent."""
         words: dict[int, Material] = {}
         for place, index in enumerate(materials):

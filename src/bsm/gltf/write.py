@@ -20,12 +20,33 @@ from bsm.codec.geometry.metrics import face_normals
 from bsm.codec.geometry.welding import split_with_origin
 from bsm.files import conventions
 from bsm.files.formats import metadata as formats
-from bsm.files.formats.appearance import Material, Texture, appearance, as_numbers, held_by, in_gltf, lost, within
+from bsm.files.formats.appearance import (
+    Material,
+    Texture,
+    appearance,
+    as_numbers,
+    held_by,
+    in_gltf,
+    lost,
+    within,
+)
 from bsm.files.formats.polygons import unit_rows
 from bsm.files.motion.frames import USUAL_RATE, FrameWriter, Shared
 from bsm.files.parsing import NO_DOUBLES, Doubles, Ints, single_suffices
 from bsm.files.stream import SequenceStream
-from bsm.gltf.coding import COMPONENTS, EXTENSION, FLOAT, MATTE, STRENGTH, UINT, UNLIT, Array, Tree, drawn, words_of
+from bsm.gltf.coding import (
+    COMPONENTS,
+    EXTENSION,
+    FLOAT,
+    MATTE,
+    STRENGTH,
+    UINT,
+    UNLIT,
+    Array,
+    Tree,
+    drawn,
+    words_of,
+)
 from bsm.gltf.document import WEBP, Growing, bounds_of, mime_of
 
 MOST_FRAMES = 2048
@@ -78,14 +99,21 @@ class _Scene(Growing):
         origin = np.zeros(3)
         if not single_suffices(mesh.positions):
             origin = np.rint(mesh.positions.mean(axis=0))
-        if origin.any():  # nodes have double precision, in which they place meshes that lie far away
+        # Nodes have double precision, in which they place meshes that lie far away.
+        if origin.any():
             mesh = replace(mesh, positions=mesh.positions - origin)
         if not single_suffices(mesh.positions):
             raise MeshError(NO_DOUBLES.format("GLB"))
         # glTF has one index for all attributes of a vertex.
         split, vertex_origins = split_with_origin(mesh)
-        material, part = formats.face_numbers(split, "material"), formats.face_numbers(split, "part")
-        sorting = [np.zeros(len(split.faces), np.int64) if a is None else a.values for a in (part, material)]
+        material, part = (
+            formats.face_numbers(split, "material"),
+            formats.face_numbers(split, "part"),
+        )
+        sorting = [
+            np.zeros(len(split.faces), np.int64) if a is None else a.values
+            for a in (part, material)
+        ]
         # A primitive has one material and a node one name, so faces are sorted by both.
         kinds, kind_of_face = np.unique(np.column_stack(sorting), axis=0, return_inverse=True)
         arrays, vertex_attributes = _at_vertices(split)
@@ -94,15 +122,21 @@ class _Scene(Growing):
         written = {*expressed, "part.names", *(f"part.{number}.name" for number in names)}
         self._sets = sum(name.startswith("TEXCOORD_") for name in arrays)
         materials = self._materials(mesh.metadata, kinds[:, 1].tolist(), written)
-        self._blend_opacity(vertex_attributes, {materials[number] for number in kinds[:, 1].tolist()})
+        self._blend_opacity(
+            vertex_attributes, {materials[number] for number in kinds[:, 1].tolist()}
+        )
         self.primitives: list[tuple[Tree, Ints]] = []
         node_names: set[str] = set()
         for place, (part_number, material_number) in enumerate(kinds.tolist()):
-            vertices, corners = np.unique(split.faces[kind_of_face.reshape(-1) == place], return_inverse=True)
+            vertices, corners = np.unique(
+                split.faces[kind_of_face.reshape(-1) == place], return_inverse=True
+            )
             accessors: Tree = {}
             for name, values in arrays.items():
                 is_color = name.startswith("COLOR_")
-                accessors[name] = self.numbers(values[vertices], bounds=name == "POSITION", shares=is_color)
+                accessors[name] = self.numbers(
+                    values[vertices], bounds=name == "POSITION", shares=is_color
+                )
             primitive: Tree = {"attributes": accessors}
             primitive["indices"] = self.numbers(corners.reshape(-1, 1).astype(np.uint32))
             primitive["material"] = materials[material_number]
@@ -112,15 +146,23 @@ class _Scene(Growing):
             self.place({"name": node_name, "primitives": [primitive]}, name=node_name, **node)
             self.primitives.append((primitive, vertex_origins[vertices]))
         rest = {name: value for name, value in mesh.metadata.items() if name not in written}
-        extras = {name: value for name, value in rest.items() if isinstance(value, str) or as_numbers(value)}
+        extras = {
+            name: value
+            for name, value in rest.items()
+            if isinstance(value, str) or as_numbers(value)
+        }
         if extras:
             self.tree["scenes"][0]["extras"] = extras
         # Extras come back, but no other program looks for a material there.
         in_extras = [name for name in extras if name.startswith("material.")]
         lost = [name for name in rest if name not in extras]
-        self.left_out += formats.left_out(mesh, [*vertex_attributes, material, part], lost, in_extras)
+        self.left_out += formats.left_out(
+            mesh, [*vertex_attributes, material, part], lost, in_extras
+        )
 
-    def _materials(self, metadata: Metadata, numbers: list[int], written: set[str]) -> dict[int, int]:
+    def _materials(
+        self, metadata: Metadata, numbers: list[int], written: set[str]
+    ) -> dict[int, int]:
         """Add the materials of a mesh and, for faces without one, a matte one; return their places by number."""
         images = formats.images_in(metadata)
         materials: dict[int, int] = {}
@@ -144,7 +186,11 @@ class _Scene(Growing):
                 self.tree["materials"][place].setdefault("alphaMode", "BLEND")
 
     def _material(
-        self, number: int, words: Material, images: Mapping[int, tuple[str, bytes]], written: set[str]
+        self,
+        number: int,
+        words: Material,
+        images: Mapping[int, tuple[str, bytes]],
+        written: set[str],
     ) -> int | None:
         """Add a material; None if glTF can express nothing of it. `written` gets the names of expressed properties."""
         look, _ = within(appearance(words))
@@ -182,7 +228,9 @@ class _Scene(Growing):
             material["extensions"] = extensions
         for extension in sorted(extensions_used | extensions.keys()):
             self.use(extension, required=False)
-        fields = {name for name in held_by("glTF") if getattr(look, name.partition(".")[0]) not in absent}
+        fields = {
+            name for name in held_by("glTF") if getattr(look, name.partition(".")[0]) not in absent
+        }
         for name, value in vars(look).items():
             if isinstance(value, Texture) and value.set >= self._sets:
                 fields.discard(f"{name}.set")
@@ -258,7 +306,11 @@ def _at_vertices(mesh: TriangleMesh) -> tuple[dict[str, Array], list[Attribute]]
             values = np.column_stack([values[:, 0], 1 - values[:, 1]]).astype(np.float32)
         elif name == "COLOR":
             values = conventions.linear_colors(values)
-        elif re.fullmatch(r"color\d?", attribute.name) and width in (3, 4) and values.dtype == np.float32:
+        elif (
+            re.fullmatch(r"color\d?", attribute.name)
+            and width in (3, 4)
+            and values.dtype == np.float32
+        ):
             name = "COLOR"  # above 1, as glTF had them
         if name in ("TEXCOORD", "COLOR"):
             number = counts[name]
@@ -299,7 +351,11 @@ def write_frames(file: IO[bytes], path: str, first: Faces, shared: Shared) -> It
             else:
                 moving.add_frame(shared.mesh(frame, moving.faces, with_metadata=False))
             moved = shared.moved(anew=faces is not None)
-            shared.loses(f"how {attribute.name} changes" for attribute in moved if attribute is not moving.painted)
+            shared.loses(
+                f"how {attribute.name} changes"
+                for attribute in moved
+                if attribute is not moving.painted
+            )
 
         yield write
         shared.loses(moving.left_out)
@@ -346,7 +402,11 @@ class _Moving(_Scene):
 
     def _painted(self, mesh: TriangleMesh) -> list[Array]:
         self.painted = formats.shown_at_vertices(mesh)[1]
-        return [] if self.painted is None else [conventions.to_linear(conventions.shares_of(self.painted.values))]
+        return (
+            []
+            if self.painted is None
+            else [conventions.to_linear(conventions.shares_of(self.painted.values))]
+        )
 
     def add_frame(self, mesh: TriangleMesh) -> None:
         run = self._runs[-1]
@@ -358,7 +418,10 @@ class _Moving(_Scene):
             )
         arrays = (mesh.positions, vertex_normals(mesh.positions, self.faces), *self._painted(mesh))
         with np.errstate(over="ignore"):
-            deltas = [(values - first).astype(np.float32) for values, first in zip(arrays, run.first, strict=True)]
+            deltas = [
+                (values - first).astype(np.float32)
+                for values, first in zip(arrays, run.first, strict=True)
+            ]
         # JSON has no infinity, and the bounds of an accessor are JSON.
         if not all(np.isfinite(delta).all() for delta in deltas):
             raise MeshError(f"frame {self.frames} is beyond single precision, which GLB has")
@@ -378,7 +441,9 @@ class _Moving(_Scene):
         def move(nodes: range, path: str, frames: Array, values: int, interpolation: str) -> None:
             keys = self.numbers(frame_times[frames].astype(np.float32)[:, None], bounds=True)
             place = len(samplers)
-            channels.extend({"sampler": place, "target": {"node": node, "path": path}} for node in nodes)
+            channels.extend(
+                {"sampler": place, "target": {"node": node, "path": path}} for node in nodes
+            )
             samplers.append({"input": keys, "output": values, "interpolation": interpolation})
 
         ends = [*(run.begun for run in self._runs[1:]), self.frames]
@@ -400,7 +465,13 @@ class _Moving(_Scene):
                     frames, visibility = [*frames, end], [*visibility, 0]
                 scale = np.array(self.tree["nodes"][run.nodes[0]].get("scale", [1.0] * 3))
                 scales = np.array(visibility)[:, None] * scale
-                move(run.nodes, "scale", np.array(frames), self.numbers(scales.astype(np.float32)), "STEP")
+                move(
+                    run.nodes,
+                    "scale",
+                    np.array(frames),
+                    self.numbers(scales.astype(np.float32)),
+                    "STEP",
+                )
         if channels:
             self.add("animations", {"name": "frames", "samplers": samplers, "channels": channels})
 
@@ -410,13 +481,18 @@ class _Moving(_Scene):
             if any("COLOR_0" in target for target in primitive["targets"]):
                 # An accessor without bytes is zero everywhere.
                 zeros = self.accessor(FLOAT, len(rows), run.first[2].shape[1])
-                primitive["targets"] = [{"COLOR_0": zeros} | target for target in primitive["targets"]]
+                primitive["targets"] = [
+                    {"COLOR_0": zeros} | target for target in primitive["targets"]
+                ]
 
 
 def vertex_normals(positions: Positions, faces: Faces) -> Doubles:
     """The mean of the normals of a vertex' faces, shape (n, 3); a vertex without any looks up."""
     normals = face_normals(positions, faces)
-    sums = [np.bincount(faces.reshape(-1), np.repeat(axis, 3), minlength=len(positions)) for axis in normals.T]
+    sums = [
+        np.bincount(faces.reshape(-1), np.repeat(axis, 3), minlength=len(positions))
+        for axis in normals.T
+    ]
     return unit_rows(np.column_stack(sums), _UP)
 
 
@@ -428,14 +504,18 @@ def moving_scene(stream: bytes) -> bytes:
     sequence = SequenceStream(iter([stream]))
     _, positions = next(sequence.changing_frames())
     # Those that sort faces are lost in one primitive; others would be lost without a word, and are refused.
-    attributes = tuple(a for a in sequence.attributes if a.domain != "face" or a.name not in _SORTING)
+    attributes = tuple(
+        a for a in sequence.attributes if a.domain != "face" or a.name not in _SORTING
+    )
     for attribute in attributes:
         if attribute.domain == "face":
             raise UnsupportedError(f"glTF has no place for {attribute.name}, which faces have")
     shape = drawn(TriangleMesh(positions, sequence.faces, attributes, {}))
     kinds = {"POSITION": (FLOAT, 3), "NORMAL": (FLOAT, 3)}
     for semantic, names in (("texcoord", ("TEXCOORD_0", "TEXCOORD_1")), ("color", ("COLOR_0",))):
-        widths = [attribute.components for attribute in attributes if attribute.semantic == semantic]
+        widths = [
+            attribute.components for attribute in attributes if attribute.semantic == semantic
+        ]
         kinds |= {name: (FLOAT, width) for name, width in zip(names, widths, strict=False)}
     kinds["indices"] = (UINT, 1)
     scene = _Scene(io.BytesIO())
@@ -445,7 +525,11 @@ def moving_scene(stream: bytes) -> bytes:
     for name, (component, width) in kinds.items():
         count = len(shape.index if name == "indices" else shape.arrays["POSITION"])
         largest = max(largest, size := 4 * width * count)
-        view: Tree = {"buffer": 1, "byteLength": size, "extensions": {EXTENSION: {"stream": source, "attribute": name}}}
+        view: Tree = {
+            "buffer": 1,
+            "byteLength": size,
+            "extensions": {EXTENSION: {"stream": source, "attribute": name}},
+        }
         places[name] = scene.accessor(component, count, width, scene.add("bufferViews", view))
     scene.tree["accessors"][0] |= bounds_of(positions.astype(np.float32))
     # Filled by decoders from the stream, frame after frame, so it is as large as the largest array only.

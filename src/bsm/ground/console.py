@@ -68,9 +68,15 @@ class Progress:
     """A line on the terminal, lines of JSON, or calls of a function that say what goes on and how much is done."""
 
     def __init__(
-        self, what: str, *, shown: bool = False, lines: bool = False, heard: Callable[[int, int], None] | None = None
+        self,
+        what: str,
+        *,
+        shown: bool = False,
+        lines: bool = False,
+        heard: Callable[[int, int], None] | None = None,
     ) -> None:
-        self._parts = [(what, 0.0, 1.0)]  # what goes on, and which share of the time it is, from the whole inwards
+        # What goes on, and which share of the time it is, from the whole inwards.
+        self._parts = [(what, 0.0, 1.0)]
         if heard is not None and not callable(heard):
             raise ArgumentError(f"progress must be a function, not {heard!r}")
         self._shown, self._lines, self._heard = shown, lines, heard
@@ -176,14 +182,17 @@ class Progress:
     def _tick(self) -> None:
         """Say it again each second, so that silence does not look like the end."""
         # The clock ends at once when the work does, instead of at its next tick.
-        while not self._over.wait(_PATIENCE if time.monotonic() - self._begun < _PATIENCE else max(_SECOND, 0.1)):
+        while not self._over.wait(
+            _PATIENCE if time.monotonic() - self._begun < _PATIENCE else max(_SECOND, 0.1)
+        ):
             self._say(_SECOND / 2 if self._lines else 0.0)
 
 
 _CLAUSES = re.compile(r"(; |\? |(?<=\w)\. )")
 _OPTION = re.compile(r"(?<![\w/.-])--?[a-z][\w-]*")
 # A clause that tells to run another command may name the options of that one.
-_OTHER = re.compile(r"\b(?:bsm|pip|python|python3|cc) [a-z-]")  # their options are not those of this command
+# Their options are not those of this command.
+_OTHER = re.compile(r"\b(?:bsm|pip|python|python3|cc) [a-z-]")
 
 
 def for_command(text: str, options: frozenset[str] | None) -> str:
@@ -192,14 +201,20 @@ def for_command(text: str, options: frozenset[str] | None) -> str:
         return text
     first, *rest = _CLAUSES.split(text)
     pairs = zip(rest[::2], rest[1::2], strict=True)
-    kept = [(mark, clause) for mark, clause in pairs if _OTHER.search(clause) or {*_OPTION.findall(clause)} <= options]
+    kept = [
+        (mark, clause)
+        for mark, clause in pairs
+        if _OTHER.search(clause) or {*_OPTION.findall(clause)} <= options
+    ]
     # The first clause is the error itself, and stays whatever it names.
     return first + "".join(mark + clause for mark, clause in kept)
 
 
 def printable(text: str) -> str:
     """With escapes in place of what would make a terminal do something, or begin a line of its own."""
-    return "".join(char if char.isprintable() else char.encode("unicode_escape").decode() for char in text)
+    return "".join(
+        char if char.isprintable() else char.encode("unicode_escape").decode() for char in text
+    )
 
 
 def say(text: str, key: str | None = None) -> None:

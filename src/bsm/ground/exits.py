@@ -36,8 +36,14 @@ EXITS = (
         (failures.FormatError, failures.MeshError),
     ),
     Exit(4, "the input is damaged", (failures.CorruptError,)),
-    Exit(5, "the input uses a version or method that this program does not know", (failures.UnsupportedError,)),
-    Exit(6, "the input asks for more memory or work than allowed", (failures.LimitError, MemoryError)),
+    Exit(
+        5,
+        "the input uses a version or method that this program does not know",
+        (failures.UnsupportedError,),
+    ),
+    Exit(
+        6, "the input asks for more memory or work than allowed", (failures.LimitError, MemoryError)
+    ),
     Exit(7, "a computation failed numerically", (failures.NumericError,)),
     Exit(8, "an optional package is missing", (failures.DependencyError,)),
     Exit(
@@ -45,7 +51,11 @@ EXITS = (
         "the requested quality or size cannot be reached, or the decoded result does not meet it",
         (failures.TargetError, failures.VerificationError),
     ),
-    Exit(11, "the result would be worse than the input; --force writes it anyway", (failures.HarmError,)),
+    Exit(
+        11,
+        "the result would be worse than the input; --force writes it anyway",
+        (failures.HarmError,),
+    ),
     Exit(12, "the input ends too early", (failures.TruncatedError,)),
     Exit(130, "interrupted", (KeyboardInterrupt,)),
     Exit(141, "broken pipe", (BrokenPipeError,)),
@@ -77,7 +87,11 @@ def behind(error: BaseException) -> BaseException:
 
 
 def report_error(
-    error: BaseException, *, as_json: bool = False, options: frozenset[str] | None = None, advice: str = ""
+    error: BaseException,
+    *,
+    as_json: bool = False,
+    options: frozenset[str] | None = None,
+    advice: str = "",
 ) -> None:
     """Write an error to standard error, as a line of JSON if all lines are; `options` are those of the command."""
     if isinstance(error, BrokenPipeError):
@@ -85,7 +99,11 @@ def report_error(
         # Python's own advice for SIGPIPE. Without it the interpreter prints a second error when it ends.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return
-    text = exit_of(error).meaning if isinstance(error, _SIGNALS) else for_command(worded(error), options)
+    text = (
+        exit_of(error).meaning
+        if isinstance(error, _SIGNALS)
+        else for_command(worded(error), options)
+    )
     text += f"; {advice}" if advice else ""
     say(text if as_json else f"bsm: {text}", "error" if as_json else None)
 
@@ -96,6 +114,10 @@ def worded(error: BaseException) -> str:
         # "No such file" is misleading for an output whose folder is missing.
         if reason == os.strerror(errno.ENOENT) and "://" not in name:
             folder = os.path.dirname(name)
-            reason = f"the folder {folder} does not exist" if folder and not os.path.isdir(folder) else reason
+            reason = (
+                f"the folder {folder} does not exist"
+                if folder and not os.path.isdir(folder)
+                else reason
+            )
         return f"{error.filename or repr('')}: {reason}" if error.filename is not None else reason
     return f"not enough memory: {error}" if isinstance(error, MemoryError) else str(error)

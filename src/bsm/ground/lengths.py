@@ -62,7 +62,9 @@ def parse_bytes(name: str, value: Any) -> float:
     # Kilobytes are written with either letter; there is no other meaning of K here.
     found = BYTES.fullmatch(value.strip().replace("K", "k")) if isinstance(value, str) else None
     if found is None:
-        raise ArgumentError(f"{name} must be a number of bytes, such as 20000 or 20kB, not {value!r}")
+        raise ArgumentError(
+            f"{name} must be a number of bytes, such as 20000 or 20kB, not {value!r}"
+        )
     return float(found[1]) * float((1024 if found[3] else 1000) ** " kMG".index(found[2] or " "))
 
 
@@ -79,7 +81,11 @@ def in_own_unit(
     options: Mapping[str, Any], metadata: Mapping[str, Any], mesh: TriangleMesh | None = None
 ) -> dict[str, Any]:
     """Return options with lengths in the unit of the mesh; `UnitError` if a unit is not known, or the mesh has none."""
-    value, own, mesh = options.get("max_error"), unit_of(metadata), mesh and mesh.without_isolated_vertices()[0]
+    value, own, mesh = (
+        options.get("max_error"),
+        unit_of(metadata),
+        mesh and mesh.without_isolated_vertices()[0],
+    )
     if value is None or isinstance(value, Length):
         return dict(options)
     number, unit = _parts("max_error", value)
@@ -97,7 +103,9 @@ def in_own_unit(
         # The question offers two units that make the size of the mesh plausible or absurd, so that the user sees which
         # is right.
         other = "mm" if asked == 1.0 else "m"
-        long = float((mesh.positions.max(axis=0) - mesh.positions.min(axis=0)).max()) if mesh else 0.0
+        long = (
+            float((mesh.positions.max(axis=0) - mesh.positions.min(axis=0)).max()) if mesh else 0.0
+        )
         which = f"is it {long:.3g} {other} or {long:.3g} {unit} long?" if long else "which is it?"
         raise UnitError(
             f"max_error is in {unit}, but the mesh has no unit: {which} Give it, --meta unit={other} or --meta "
@@ -106,7 +114,12 @@ def in_own_unit(
         )
     size = known_unit(own, "the mesh")
     # Equal units need no arithmetic. Else twelve digits, so that 1 inch in a mesh of inches is exactly 1.
-    return {**options, "max_error": Length(number if asked == size else float(f"{number * asked / size:.12g}"), True)}
+    return {
+        **options,
+        "max_error": Length(
+            number if asked == size else float(f"{number * asked / size:.12g}"), True
+        ),
+    }
 
 
 def as_said(options: Mapping[str, Any]) -> dict[str, Any]:
@@ -127,7 +140,9 @@ def known_unit(unit: object, where: str) -> float:
         return size
     word = _MANY.fullmatch(str(unit).strip().lower())
     advice = suggestion(word[2], IN_METRES) if word else ""
-    raise UnitError(f"{where}: unknown unit {unit!r}{advice}{'' if advice else f'; known are {_SHORT}'}")
+    raise UnitError(
+        f"{where}: unknown unit {unit!r}{advice}{'' if advice else f'; known are {_SHORT}'}"
+    )
 
 
 def asked_unit(options: Mapping[str, Any], metadata: Mapping[str, Any]) -> tuple[str, float]:
@@ -143,14 +158,17 @@ def _parts(name: str, value: Any) -> tuple[float, str]:
         return float(value), ""
     found = LENGTH.fullmatch(value.strip()) if isinstance(value, str) else None
     if found is None:
-        raise ArgumentError(f"{name} must be a number, or one with a unit like 0.05mm or 0.1%, not {value!r}")
+        raise ArgumentError(
+            f"{name} must be a number, or one with a unit like 0.05mm or 0.1%, not {value!r}"
+        )
     return float(found[1]), found[2]
 
 
 def metres(unit: str) -> float | None:
     """Return the meters of a unit, such as mm, or of a number of units, such as 0.5 m; None: it is unknown."""
     # Unicode has two letters for micro, and keyboards give either.
-    found = _MANY.fullmatch(unit.strip().lower().replace("μ", "µ"))  # mu, and the sign for a millionth
+    # Mu, and the sign for a millionth.
+    found = _MANY.fullmatch(unit.strip().lower().replace("μ", "µ"))
     name = found[2] if found else ""
     size = IN_METRES.get(name, IN_METRES.get(name.removesuffix("s")))
     return None if found is None or size is None else float(found[1] or 1.0) * size or None
@@ -159,7 +177,10 @@ def metres(unit: str) -> float | None:
 def unit_named(size: float) -> str:
     """Return the name of a unit of so many meters, as in metadata."""
     # Sizes in files are often single precision: 0.0254 comes as 0.025400000065.
-    names = next((names.split()[1] for names, meters in UNITS.items() if abs(meters - size) < 1e-7 * meters), "")
+    names = next(
+        (names.split()[1] for names, meters in UNITS.items() if abs(meters - size) < 1e-7 * meters),
+        "",
+    )
     return names or f"{size:.9g} meters"
 
 

@@ -15,7 +15,9 @@ from bsm.codec.geometry.metrics import face_normals
 from bsm.codec.look.pictures import SAMPLES, Canvas
 
 # Blue to red by way of a light yellow: people with red-green blindness tell its ends apart.
-SCALE = np.array([(49, 54, 149), (116, 173, 209), (255, 255, 191), (244, 109, 67), (165, 0, 38)], np.float64)
+SCALE = np.array(
+    [(49, 54, 149), (116, 173, 209), (255, 255, 191), (244, 109, 67), (165, 0, 38)], np.float64
+)
 """Colors from 0 to 1, evenly: after ColorBrewer's RdYlBu."""
 Image = npt.NDArray[np.float64]
 
@@ -29,7 +31,8 @@ def png(picture: npt.NDArray[Any]) -> bytes:
     head = struct.pack(">IIBBBBB", width, height, 8, 2 if picture.ndim == 3 else 0, 0, 0, 0)
     chunks = ((b"IHDR", head), (b"IDAT", zlib.compress(rows.tobytes(), 9)), (b"IEND", b""))
     return b"\x89PNG\r\n\x1a\n" + b"".join(
-        struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data)) for name, data in chunks
+        struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
+        for name, data in chunks
     )
 
 
@@ -42,11 +45,15 @@ class Bar(NamedTuple):
 
 
 def with_titles(
-    pictures: Sequence[Image], titles: Sequence[str], bar: Bar | None = None, figures: Mapping[str, str] | None = None
+    pictures: Sequence[Image],
+    titles: Sequence[str],
+    bar: Bar | None = None,
+    figures: Mapping[str, str] | None = None,
 ) -> bytes:
     """A PNG file of pictures under titles, with a bar under the last one, and text; by matplotlib."""
     # Asked for before anything is drawn, so that a missing one is an error about packages and not one of matplotlib.
-    for name in ("matplotlib", "matplotlib.figure", "PIL.Image"):  # by the last of which matplotlib writes
+    # By the last of which matplotlib writes.
+    for name in ("matplotlib", "matplotlib.figure", "PIL.Image"):
         imported(name, "titles need matplotlib", "eval")
     from matplotlib.cm import ScalarMappable
     from matplotlib.colors import ListedColormap, Normalize
@@ -60,8 +67,13 @@ def with_titles(
         axes.axis("off")
     if bar is not None:
         colors = ListedColormap(colors_of(np.linspace(0.0, 1.0, 256)) / 255.0)
-        scale, ends = ScalarMappable(Normalize(0.0, bar.top), colors), "max" if bar.largest > bar.top else "neither"
-        figure.colorbar(scale, ax=places[-1], location="bottom", shrink=0.8, label=bar.label, extend=ends)
+        scale, ends = (
+            ScalarMappable(Normalize(0.0, bar.top), colors),
+            "max" if bar.largest > bar.top else "neither",
+        )
+        figure.colorbar(
+            scale, ax=places[-1], location="bottom", shrink=0.8, label=bar.label, extend=ends
+        )
     with io.BytesIO() as file:
         # Without the version of matplotlib in it, the same picture has the same bytes.
         figure.savefig(file, format="png", metadata={"Software": None, **(figures or {})})
@@ -124,7 +136,8 @@ def nearest_faces(pixels: Positions, faces: Faces, size: int) -> npt.NDArray[np.
     # apart.
     depths = (pixels[:, 2] - (low + high) / 2) * (_DEPTHS / ((high - low) or 1.0))
     canvas, plain = Canvas(size + -size % SAMPLES), np.zeros((len(faces), 9), np.float32)
-    camera = np.append(np.eye(3, 4), (0.0, 0.0, 1.0))  # which leaves columns, rows and depths as they are
+    # Which leaves columns, rows and depths as they are.
+    camera = np.append(np.eye(3, 4), (0.0, 0.0, 1.0))
     placed = np.ascontiguousarray(np.column_stack([pixels[:, :2], depths]))
     canvas.draw(placed, np.ascontiguousarray(faces, np.int32), plain, camera)
     return canvas.owner[:size, :size]

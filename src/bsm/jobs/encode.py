@@ -12,7 +12,13 @@ from itertools import count
 from pathlib import Path
 from typing import Any
 
-from bsm.account.comparison import Errors, flattened, lost_attributes, worded_errors, write_permutation
+from bsm.account.comparison import (
+    Errors,
+    flattened,
+    lost_attributes,
+    worded_errors,
+    write_permutation,
+)
 from bsm.account.images import changed, compare_images
 from bsm.bitstream.errors import HarmError, OptionError, counted
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
@@ -36,7 +42,8 @@ from bsm.jobs.task import Facts, Job, Task, came_to
 
 # Only for the bar: reading takes a few percent of encoding.
 READ = 0.08  # of the time of a mesh
-_SECONDS_A_VERTEX = 2.5e-6  # of processor time in each frame, as measured; that of reading is measured on the way
+# Of processor time in each frame, as measured; that of reading is measured on the way.
+_SECONDS_A_VERTEX = 2.5e-6
 # A GLB with animations is a mesh at rest unless something asks for its motion.
 _OF_SEQUENCES = ("kg", "bpvf", "gop", "low_delay", "frame_rate", "runs")
 """Options that only sequences have; with them a GLB is read as a sequence."""
@@ -79,13 +86,21 @@ class EncodeJob(Task):
         )
 
 
-def shared_images(run: Batch, asked: EncodeJob, console: Console, jobs: Sequence[Job]) -> tuple[str, ...]:
+def shared_images(
+    run: Batch, asked: EncodeJob, console: Console, jobs: Sequence[Job]
+) -> tuple[str, ...]:
     """Return the digests of the images that several meshes have in files beside them; reads these meshes first."""
     kinds = [asked.format or Path(job.input).suffix[1:].lower() for job in jobs]
-    naming = [Job(job.input, within=job.within) for job, kind in zip(jobs, kinds) if kind in WITH_IMAGES_BESIDE]
+    naming = [
+        Job(job.input, within=job.within)
+        for job, kind in zip(jobs, kinds)
+        if kind in WITH_IMAGES_BESIDE
+    ]
     # Images of a batch are compared by their digests in a first pass. Held in memory until the end, they would not fit.
     with console.progress("finding images of several meshes"):
-        done = run_many(replace(run, report=None, resume=False), asked, console, _digests_one, naming)
+        done = run_many(
+            replace(run, report=None, resume=False), asked, console, _digests_one, naming
+        )
     users = Counter(digest for facts in done for digest in facts.get("images", ()))
     return tuple(sorted(digest for digest, count in users.items() if count > 1))
 
@@ -109,7 +124,12 @@ def encode_one(job: EncodeJob, console: Console) -> Facts:
         if name != "-" and not is_url(name) and not glob.has_magic(name) and not is_numbered(name):
             os.stat(name)
     runs = bool(job.options.get("runs"))
-    asked = (job.animation, job.cache_mesh, job.frames, *(job.options.get(name) for name in _OF_SEQUENCES))
+    asked = (
+        job.animation,
+        job.cache_mesh,
+        job.frames,
+        *(job.options.get(name) for name in _OF_SEQUENCES),
+    )
     plain = all(choice is None for choice in asked)
     limits, apart = (Limits.service(), True) if job.untrusted else (DEFAULT_LIMITS, None)
     wanted = Wanted(job.options.get("frame_rate") or 0.0, job.animation or "", job.cache_mesh, runs)
@@ -118,7 +138,9 @@ def encode_one(job: EncodeJob, console: Console) -> Facts:
     if members:
         frames = open_frames(members, job.format, limits, wanted, isolated=apart)
         return _encode_sequence(replace(job, members=tuple(members)), wishes, console, frames)
-    sequence = open_sequence(job.input, job.format, None if plain else wanted, limits, isolated=apart)
+    sequence = open_sequence(
+        job.input, job.format, None if plain else wanted, limits, isolated=apart
+    )
     if sequence is not None:
         if job.frames is not None:
             first, last = frame_range(job.frames)
@@ -127,7 +149,11 @@ def encode_one(job: EncodeJob, console: Console) -> Facts:
             if count_all:
                 console.note(f"{job.input}: {_frames_in_words(first, min(last, count_all))}")
         return _encode_sequence(job, wishes, console, sequence)
-    for name, given in (("animation", job.animation), ("mesh", job.cache_mesh), ("frames", job.frames)):
+    for name, given in (
+        ("animation", job.animation),
+        ("mesh", job.cache_mesh),
+        ("frames", job.frames),
+    ):
         if given is not None:
             raise OptionError(f"--{name} is for sequences; this is a single mesh")
     return _encode_mesh(job, wishes, console)
@@ -143,7 +169,9 @@ def _frame_files(job: EncodeJob, console: Console) -> Sequence[str]:
         files = frame_files(job.input, follow=not job.untrusted)
     chosen = files[first:last]
     if files and not chosen:
-        raise OptionError(f"{job.input} has {counted(frames=len(files))}; --frames {job.frames} names none of them")
+        raise OptionError(
+            f"{job.input} has {counted(frames=len(files))}; --frames {job.frames} names none of them"
+        )
     if chosen:
         names = f"{Path(chosen[0]).name} to {Path(chosen[-1]).name}"
         console.note(f"{job.input}: {_frames_in_words(first, first + len(chosen))}: {names}")
@@ -161,7 +189,9 @@ def _encode_mesh(job: EncodeJob, wishes: Wishes, console: Console) -> Facts:
     # Lossless is a promise about the file, and what no stream holds breaks it.
     if source.dropped and job.options.get("preset") == "lossless" and not job.force:
         lost = ", ".join(source.dropped)
-        raise HarmError(f"lossless would lose contents that no stream holds: {lost}; --force leaves them out")
+        raise HarmError(
+            f"lossless would lose contents that no stream holds: {lost}; --force leaves them out"
+        )
     linked: dict[str, bytes] = {}
 
     def images(metadata: Metadata) -> Metadata:
@@ -177,7 +207,8 @@ def _encode_mesh(job: EncodeJob, wishes: Wishes, console: Console) -> Facts:
         found = given.encode(progress)
         encoder, result = found.encoder, found.attempt
         file.writelines(result.frames)
-        if job.permutation:  # before the stream has its name, so that no stream stands beside another's
+        # Before the stream has its name, so that no stream stands beside another's.
+        if job.permutation:
             write_permutation(job.permutation, encoder.vertex_order, overwrite=job.force)
         for name, data in {} if job.dry_run else linked.items():
             # Linked images are the same for several streams, so a file that exists is replaced by equal bytes.
@@ -187,7 +218,12 @@ def _encode_mesh(job: EncodeJob, wishes: Wishes, console: Console) -> Facts:
     # Fewer triangles have other corners, at which attributes cannot be compared.
     checked = found.apart is None and encoder.decoded
     attributes = lost_attributes(source.mesh, checked) if checked else {}
-    notes = [*source.notes, *given.losses, *found.notes, *(_measured(note, attributes) for note in encoder.notes)]
+    notes = [
+        *source.notes,
+        *given.losses,
+        *found.notes,
+        *(_measured(note, attributes) for note in encoder.notes),
+    ]
     notes += given.notes[len(given.losses) :]
     # Images that stay as they are need no second look, and Pillow takes long to load.
     written = job.images not in (None, "keep", "none", "link")  # Pillow reads no others
@@ -207,30 +243,54 @@ def _result(
     images = sum(len(value) for value in given.mesh.metadata.values() if isinstance(value, bytes))
     # Advice only where images are most of the file.
     # A JPEG loses quality once more, and few bytes.
-    lossless = sum(len(data) for _, data in images_in(given.mesh.metadata).values() if kind_of_image(data) == "png")
+    lossless = sum(
+        len(data)
+        for _, data in images_in(given.mesh.metadata).values()
+        if kind_of_image(data) == "png"
+    )
     smaller = "" if job.images or 2 * lossless < size else "; --images webp:85 makes them smaller"
     # Grids say by themselves what they keep. All others without a promise get a measured figure instead.
     unseen = not given.options.is_grid and (promise is None or promise.look == math.inf)
     notes = ["left out: images"] if job.images == "none" else []
-    notes += [f"{images} bytes are {'' if job.images else 'unchanged '}images{smaller}"] if images else []
+    notes += (
+        [f"{images} bytes are {'' if job.images else 'unchanged '}images{smaller}"]
+        if images
+        else []
+    )
     notes += [f"no look is promised; measured: {encoder.seen(found.attempt)}"] if unseen else []
     header = found.attempt.header
     most, wanted = header.block_size, given.options.coefficients
     if wanted is not None and header.blocks and wanted > most:
-        notes.append(f"coefficients: {most} at most, the vertices of the largest block; {wanted} were asked for")
+        notes.append(
+            f"coefficients: {most} at most, the vertices of the largest block; {wanted} were asked for"
+        )
     vertices, faces = header.vertices, len(encoder.mesh.faces)
     errors, numbers = _errors(found, job.simplify, *given.unit)
     (taken, parts), bpv = size_with_parts(job.input, source), 8 * (size - images) / vertices
     beside = {name: len(data) for name, data in linked.items()}
     written = size + sum(beside.values())
-    look = "" if promise is None or encoder.look is None else f"look {encoder.look:.2f} of {promise.look:g}, "
+    look = (
+        ""
+        if promise is None or encoder.look is None
+        else f"look {encoder.look:.2f} of {promise.look:g}, "
+    )
     # The bound that decides is worth a word where it is not the usual one: loosening it makes the file smaller.
     other = encoder.binding not in ("", "look") and found.apart is None
     limited = f"limited by the {encoder.binding}, " if other else ""
     summary = f"{counted(vertices=vertices, faces=faces)}, {came_to(taken, written)}, {bpv:.2f} bits per vertex"
     summary += f"{' without images' if images else ''}; {look}{limited}{errors}"
-    facts: Facts = {"vertices": vertices, "faces": faces, "input_bytes": taken, "output_bytes": written, "bytes": size}
-    facts |= {"bpv_total": bpv} | ({"input_parts": parts, "output_parts": beside} if parts else {}) | numbers
+    facts: Facts = {
+        "vertices": vertices,
+        "faces": faces,
+        "input_bytes": taken,
+        "output_bytes": written,
+        "bytes": size,
+    }
+    facts |= (
+        {"bpv_total": bpv}
+        | ({"input_parts": parts, "output_parts": beside} if parts else {})
+        | numbers
+    )
     facts |= {"look": encoder.look, "binding": encoder.binding}
     if job.explain:
         notes += [str(event) for event in encoder.trials]
@@ -258,7 +318,9 @@ def _images_of(job: EncodeJob, metadata: Metadata) -> tuple[Metadata, dict[str, 
     if job.images == "none":
         images = {f"image.{number}.data" for number in images_in(metadata)}
         return {name: value for name, value in metadata.items() if name not in images}, {}
-    return metadata if job.images in (None, "keep") else with_smaller_images(metadata, ImageRule.parse(job.images)), {}
+    return metadata if job.images in (None, "keep") else with_smaller_images(
+        metadata, ImageRule.parse(job.images)
+    ), {}
 
 
 def _errors(found: Chosen, simplify: bool, unit: str, per_own: float) -> tuple[str, Facts]:
@@ -272,17 +334,33 @@ def _errors(found: Chosen, simplify: bool, unit: str, per_own: float) -> tuple[s
     words = _length(value, relative, unit)
     names = ("theta_deg", "angle_deg", "nmsve_db", "nmsve_paper_db", "faces_before", "flattened")
     facts: Facts = dict.fromkeys(names)
-    facts |= {"max_error_relative": relative, "error_of": "vertices" if apart is None else "surfaces"}
+    facts |= {
+        "max_error_relative": relative,
+        "error_of": "vertices" if apart is None else "surfaces",
+    }
     facts |= {"max_error": value, "unit": unit} if unit else {}
     if apart is not None:
         facts["faces_before"] = len(found.original.faces)
-        return f"{facts['faces_before']} faces before simplifying, surfaces {words} apart where measured", facts
-    facts |= {name: finite(getattr(error, name)) for name in ("theta_deg", "angle_deg", "nmsve_db", "nmsve_paper_db")}
+        return (
+            f"{facts['faces_before']} faces before simplifying, surfaces {words} apart where measured",
+            facts,
+        )
+    facts |= {
+        name: finite(getattr(error, name))
+        for name in ("theta_deg", "angle_deg", "nmsve_db", "nmsve_paper_db")
+    }
     mesh = found.encoder.mesh
     facts["flattened"] = flattened(mesh.positions, found.attempt.draft.decoded, mesh.faces)
     kept = "; all triangles are kept" if simplify else ""
-    kept += f", {counted(triangles=facts['flattened'])} flattened by rounding" if facts["flattened"] else ""
-    return f"largest vertex error {words}, mean normal error {error.angle_deg:.2f} degrees{kept}", facts
+    kept += (
+        f", {counted(triangles=facts['flattened'])} flattened by rounding"
+        if facts["flattened"]
+        else ""
+    )
+    return (
+        f"largest vertex error {words}, mean normal error {error.angle_deg:.2f} degrees{kept}",
+        facts,
+    )
 
 
 def _length(value: float, relative: float, unit: str) -> str:
@@ -302,48 +380,79 @@ def _encode_sequence(job: EncodeJob, wishes: Wishes, console: Console, source: F
     encoder, chosen = given.encoder, given.encoder.options
     with _written(job, console) as (file, progress):
         vertices = int(source.faces.max(initial=0)) + 1
-        stages = Stages(progress, {"reading": 0.0, "encoding": _SECONDS_A_VERTEX * vertices * source.count})
+        stages = Stages(
+            progress, {"reading": 0.0, "encoding": _SECONDS_A_VERTEX * vertices * source.count}
+        )
         # Frames are counted as they pass, because some sources do not know their number.
-        read = (frame for frame, _ in zip(clocked(iter(given.frames), source.count, stages), numbers))
+        read = (
+            frame for frame, _ in zip(clocked(iter(given.frames), source.count, stages), numbers)
+        )
         for chunk in replace(given, frames=read).chunks(stages.of("encoding")):
             size += file.write(chunk)
             # A reader may follow the file while it grows, as `bsm view --follow` does.
             file.flush()
-        if job.permutation:  # before the stream has its name, so that no stream stands beside another's
+        # Before the stream has its name, so that no stream stands beside another's.
+        if job.permutation:
             write_permutation(job.permutation, encoder.vertex_order, overwrite=job.force)
     seconds = time.perf_counter() - begin
     runs = encoder.run_starts[1:]
     notes = [*source.notes, *given.losses, *encoder.notes, *([describe_runs(runs)] if runs else [])]
-    attributes: dict[str, Errors | None] = {name: {"max_error": e} for name, e in encoder.attribute_errors.items()}
+    attributes: dict[str, Errors | None] = {
+        name: {"max_error": e} for name, e in encoder.attribute_errors.items()
+    }
     notes = [_measured(note, attributes) for note in notes]
     look, seen = math.inf if chosen.promise is None else chosen.promise.look, encoder.worst_look
     # Nothing was promised, but the figure was measured on the way, and costs nothing.
     if look == math.inf and seen is not None:
         where = "in the frame with the largest normal error"
-        notes.append(f"no look is promised; measured: look {seen:.2g} {where} (the default keeps 1)")
-    kept = "" if seen is None or look == math.inf else f"look {seen:.2f} of {look:g} in the worst frame drawn, "
+        notes.append(
+            f"no look is promised; measured: look {seen:.2g} {where} (the default keeps 1)"
+        )
+    kept = (
+        ""
+        if seen is None or look == math.inf
+        else f"look {seen:.2f} of {look:g} in the worst frame drawn, "
+    )
     done, vertices, faces = next(numbers), len(encoder.vertex_order), len(encoder.face_order)
     bpvf = 8 * size / encoder.samples
     paths = job.members or (job.input,)
     is_list = Path(job.input).suffix[1:].lower() in LISTS
     # A list from a stranger is only parsed in a process of its own.
-    taken = None if job.untrusted and is_list else size_of_sequence(paths, source.metadata, job.cache_mesh)
+    taken = (
+        None
+        if job.untrusted and is_list
+        else size_of_sequence(paths, source.metadata, job.cache_mesh)
+    )
     summary = f"{counted(frames=done)} of {counted(vertices=vertices, faces=faces)}{' at the end' if runs else ''}, "
     summary += f"{came_to(taken, size)}, {bpvf:.3f} bits per vertex and frame; {kept}"
     unit, per_own = given.unit
     error, relative = encoder.max_error * per_own, encoder.max_error_relative
     asked = f", {job.options['max_error']} asked for" if job.options.get("max_error") else ""
-    summary += f"largest vertex error {_length(error, relative, unit)}{asked}, KG error {encoder.kg:.3g} %"
+    summary += (
+        f"largest vertex error {_length(error, relative, unit)}{asked}, KG error {encoder.kg:.3g} %"
+    )
     summary += ", copies of a vertex counted once" if job.options.get("kg") else ""
-    facts: Facts = {"frames": done, "vertices": vertices, "faces": faces, "input_bytes": taken, "output_bytes": size}
+    facts: Facts = {
+        "frames": done,
+        "vertices": vertices,
+        "faces": faces,
+        "input_bytes": taken,
+        "output_bytes": size,
+    }
     facts |= {"bytes": size, "bpvf_total": bpvf, "kg": finite(encoder.kg)}
-    facts |= {"max_error_relative": relative, **({"max_error": error, "unit": unit} if unit else {})}
+    facts |= {
+        "max_error_relative": relative,
+        **({"max_error": error, "unit": unit} if unit else {}),
+    }
     facts |= {"attribute_errors": attributes} if attributes else {}
     return _finish(job, console, notes, summary, seconds, facts)
 
 
 def clocked(
-    frames: Iterator[Any], expected: int, stages: Stages, clock: Callable[[], float] = time.process_time
+    frames: Iterator[Any],
+    expected: int,
+    stages: Stages,
+    clock: Callable[[], float] = time.process_time,
 ) -> Iterator[Any]:
     """Yield frames, and report how long it takes to read them."""
     spent = 0.0
@@ -370,7 +479,9 @@ def _written(job: EncodeJob, console: Console) -> Iterator[tuple[Any, Progress]]
         yield file, progress
 
 
-def _finish(job: EncodeJob, console: Console, notes: list[str], summary: str, seconds: float, facts: Facts) -> Facts:
+def _finish(
+    job: EncodeJob, console: Console, notes: list[str], summary: str, seconds: float, facts: Facts
+) -> Facts:
     for note in notes:
         console.note(f"{job.input}: {note}")
     console.note(f"{job.input} -> {job.output}: {summary}; {seconds:.2f} s")

@@ -17,15 +17,23 @@ HEAD = 4096  # bytes in which the first element of a description is
 MOST_BYTES = 16 << 20  # of a file that is copied
 
 
-def copy_descriptions(folders: Sequence[str], output: str | None, console: Console, *, overwrite: bool) -> None:
+def copy_descriptions(
+    folders: Sequence[str], output: str | None, console: Console, *, overwrite: bool
+) -> None:
     """Copy the descriptions in folders and subfolders to the same places of another folder."""
     if output is None:
         return
-    pairs = [(path, Path(output, path.relative_to(folder))) for folder in folders for path in _descriptions(folder)]
+    pairs = [
+        (path, Path(output, path.relative_to(folder)))
+        for folder in folders
+        for path in _descriptions(folder)
+    ]
     # All are looked at before the first is written.
     for source, target in pairs:
         if target.exists() and not overwrite and target.read_bytes() != source.read_bytes():
-            raise FileExistsError(errno.EEXIST, "the file exists already, and differs; -f overwrites it", str(target))
+            raise FileExistsError(
+                errno.EEXIST, "the file exists already, and differs; -f overwrites it", str(target)
+            )
     for source, target in pairs:
         target.parent.mkdir(parents=True, exist_ok=True)
         write_output(str(target), source.read_bytes(), overwrite=True, follow=output)

@@ -15,12 +15,18 @@ from bsm.jobs.task import Job
 
 
 def plan(
-    inputs: Sequence[str], output: str | None, suffix: Callable[[str], str], *, sole_folder: bool = False
+    inputs: Sequence[str],
+    output: str | None,
+    suffix: Callable[[str], str],
+    *,
+    sole_folder: bool = False,
 ) -> list[Job]:
     """Return a job for each input, with its output."""
     names = input_names(inputs)
     output = own_name(output) if output else None
-    folder = output is not None and (output.endswith("/") or (not pipes.is_url(output) and Path(output).is_dir()))
+    folder = output is not None and (
+        output.endswith("/") or (not pipes.is_url(output) and Path(output).is_dir())
+    )
     if len(names) > 1:
         # Meshes have no end mark on a pipe: two of them could not be told apart.
         if "-" in names or output == "-":
@@ -52,7 +58,9 @@ def files_in(folders: Sequence[str], read: Sequence[str] = MESH_SUFFIXES) -> lis
             raise OptionError(f"{folder}: not a local folder; --recursive searches local folders")
     # Sorted, because file systems list folders in any order.
     every = ((folder, path) for folder in folders for path in sorted(Path(folder).rglob("*")))
-    found = [(folder, path) for folder, path in every if path.suffix.lower() in read and path.is_file()]
+    found = [
+        (folder, path) for folder, path in every if path.suffix.lower() in read and path.is_file()
+    ]
     if not found:
         what = "streams" if read == STREAM_SUFFIXES else "mesh files"
         raise OptionError(f"no {what} in {', '.join(folders)} or subfolders ({', '.join(read)})")
@@ -67,7 +75,14 @@ def plan_trees(
     jobs = []
     for folder, path in files_in(folders, read):
         place = path if output is None else Path(output, path.relative_to(folder))
-        jobs.append(Job(str(path), no_link(str(place.with_suffix(suffix))), follow=output or folder, within=folder))
+        jobs.append(
+            Job(
+                str(path),
+                no_link(str(place.with_suffix(suffix))),
+                follow=output or folder,
+                within=folder,
+            )
+        )
     jobs = apart(jobs, lambda _: suffix)
     refuse_collisions([job.input for job in jobs], [job.output for job in jobs])
     for parent in {Path(job.output).parent for job in jobs}:
@@ -95,7 +110,11 @@ def apart(jobs: Sequence[Job], suffix: Callable[[str], str]) -> list[Job]:
     def output(job: Job) -> str:
         added = suffix(job.input)
         kept = PurePath(pipes.name_in(job.input) if pipes.is_url(job.input) else job.input).suffix
-        return job.output if often[job.output] < 2 else no_link(f"{job.output.removesuffix(added)}{kept}{added}")
+        return (
+            job.output
+            if often[job.output] < 2
+            else no_link(f"{job.output.removesuffix(added)}{kept}{added}")
+        )
 
     return [replace(job, output=output(job)) for job in jobs]
 
@@ -107,7 +126,13 @@ def input_names(inputs: Sequence[str]) -> list[str]:
         name = own_name(given)
         local = name != given and glob.has_magic(name)  # of a file:// URL, which no shell expands
         # A shell expands patterns of local files only.
-        found = pipes.expanded(name) if pipes.is_url(name) else sorted(glob.glob(name)) if local else [name]
+        found = (
+            pipes.expanded(name)
+            if pipes.is_url(name)
+            else sorted(glob.glob(name))
+            if local
+            else [name]
+        )
         if not found:
             raise FileNotFoundError(errno.ENOENT, "no such file", given)
         names += found

@@ -22,7 +22,17 @@ from bsm.ground.console import Console
 from bsm.jobs.task import Facts, Job, Task, Work
 
 # None of these changes the bytes of an output, so a run with others may still be resumed.
-_OF_ONE_RUN = {"quiet", "force", "threads", "input", "output", "replaceable", "doubtful", "fresh", "before"}
+_OF_ONE_RUN = {
+    "quiet",
+    "force",
+    "threads",
+    "input",
+    "output",
+    "replaceable",
+    "doubtful",
+    "fresh",
+    "before",
+}
 _EVERY = 1.0  # seconds between two versions of a report, at least
 _WAYS = ("input", "output")
 _SHOWN = 20  # rows of a table, if fewer failed
@@ -55,7 +65,9 @@ class Report:
         self._kind = report_kind(path)
         self._load = load
         self._head = {"command": command, "options": options}
-        self._files = [earlier.get(job.output) or {"input": job.input, "output": job.output} for job in jobs]
+        self._files = [
+            earlier.get(job.output) or {"input": job.input, "output": job.output} for job in jobs
+        ]
         self._open = set(range(len(jobs)))
         self._begin = time.perf_counter()
         self._next = 0.0
@@ -80,8 +92,17 @@ class Report:
             return write_table(self._files)
         if self._kind == "html":
             return write_page(self._path, self._files, self._load)
-        state = {"complete": not self._open, "seconds": now - self._begin, "totals": totals(self._files)}
-        return json.dumps({**self._head, **state, "files": self._files}, indent=1, allow_nan=False).encode() + b"\n"
+        state = {
+            "complete": not self._open,
+            "seconds": now - self._begin,
+            "totals": totals(self._files),
+        }
+        return (
+            json.dumps(
+                {**self._head, **state, "files": self._files}, indent=1, allow_nan=False
+            ).encode()
+            + b"\n"
+        )
 
 
 @dataclass(frozen=True)
@@ -104,10 +125,21 @@ def read_report(path: str, command: str, options: Facts) -> Earlier:
         json.dumps({**report, "totals": totals(list(files.values()))}, allow_nan=False)
     except FileNotFoundError:
         return NOTHING
-    except (ValueError, KeyError, TypeError, AttributeError, ArithmeticError, RecursionError) as error:
-        raise FormatError(f"{path}: this is not a report of bsm; name another with --report") from error
+    except (
+        ValueError,
+        KeyError,
+        TypeError,
+        AttributeError,
+        ArithmeticError,
+        RecursionError,
+    ) as error:
+        raise FormatError(
+            f"{path}: this is not a report of bsm; name another with --report"
+        ) from error
     # With other options the results do not count, but the files are still known as those of a run.
-    return Earlier({name: entry.get("output_sha256") for name, entry in files.items()}, files if same else {})
+    return Earlier(
+        {name: entry.get("output_sha256") for name, entry in files.items()}, files if same else {}
+    )
 
 
 def is_report(path: str) -> bool:
@@ -122,7 +154,14 @@ def read_results(path: str) -> list[Facts]:
     """Return the checked results of a report, one for each input of its run."""
     try:
         return [_entry(result) for result in json.loads(pipes.as_input(path).read_all())["files"]]
-    except (ValueError, KeyError, TypeError, AttributeError, ArithmeticError, RecursionError) as error:
+    except (
+        ValueError,
+        KeyError,
+        TypeError,
+        AttributeError,
+        ArithmeticError,
+        RecursionError,
+    ) as error:
         raise FormatError(f"{path}: this is not a report of bsm") from error
 
 
@@ -132,17 +171,30 @@ def find_output(report: str, output: str) -> str:
     if pipes.is_url(output) or path.exists():
         return output
     folder = Path(report).parent
-    moved = (folder.joinpath(*path.parts[first:]) for first in range(path.is_absolute(), len(path.parts)))
+    moved = (
+        folder.joinpath(*path.parts[first:]) for first in range(path.is_absolute(), len(path.parts))
+    )
     return str(next(filter(Path.exists, moved), path))
 
 
 _MOST_BYTES = 1 << 63
 # A report is a file, which anybody can edit. Fields that are computed with are checked by type and range.
 _FIELDS: Mapping[str, Callable[[Any], bool]] = {
-    **dict.fromkeys(("input_bytes", "output_bytes"), lambda value: type(value) is int and 0 <= value < _MOST_BYTES),
-    **dict.fromkeys(("seconds", "max_error_relative", "max_error", "kg"), lambda value: type(value) in (int, float)),
-    **dict.fromkeys(("input", "output", "output_sha256", "unit"), lambda value: isinstance(value, str)),
-    **dict.fromkeys(("input_parts", "output_parts"), lambda value: all(type(size) is int for size in value.values())),
+    **dict.fromkeys(
+        ("input_bytes", "output_bytes"),
+        lambda value: type(value) is int and 0 <= value < _MOST_BYTES,
+    ),
+    **dict.fromkeys(
+        ("seconds", "max_error_relative", "max_error", "kg"),
+        lambda value: type(value) in (int, float),
+    ),
+    **dict.fromkeys(
+        ("input", "output", "output_sha256", "unit"), lambda value: isinstance(value, str)
+    ),
+    **dict.fromkeys(
+        ("input_parts", "output_parts"),
+        lambda value: all(type(size) is int for size in value.values()),
+    ),
     "error": lambda value: isinstance(value, str) and bool(value.strip()),
     "exit": lambda value: type(value) is int and 0 < value < 256,
 }
@@ -169,7 +221,12 @@ def recorded(work: Work, task: Task, console: Console) -> Facts:
         return {**before, "resumed": True}
     apart = replace(console, kept=[])
     facts = _compared(work, task, apart) if task.output in task.doubtful else work(task, apart)
-    return {"notes": apart.kept, **facts, "input_state": state, "output_sha256": pipes.digest_of(facts["output"])}
+    return {
+        "notes": apart.kept,
+        **facts,
+        "input_state": state,
+        "output_sha256": pipes.digest_of(facts["output"]),
+    }
 
 
 def _compared(work: Work, task: Task, console: Console) -> Facts:
@@ -177,7 +234,9 @@ def _compared(work: Work, task: Task, console: Console) -> Facts:
     path = Path(task.output)
     # The run may have been killed after the output got its name, and before the report had it. Encoding gives the same
     # bytes each time, so doing it again tells whether the file is ours.
-    refuse = FileExistsError(errno.EEXIST, "the output differs from the report; -f overwrites it", task.output)
+    refuse = FileExistsError(
+        errno.EEXIST, "the output differs from the report; -f overwrites it", task.output
+    )
     if not path.is_file() or path.is_symlink():
         raise refuse
     with tempfile.TemporaryDirectory() as folder:
@@ -206,7 +265,9 @@ def totals(files: Sequence[Facts]) -> Facts:
 def _bytes_of(files: Sequence[Facts], way: str) -> int:
     """Return the bytes of inputs or outputs; a file beside several of them counts once."""
     parts = [facts.get(f"{way}_parts") or {} for facts in files]
-    again = sum(sum(each.values()) for each in parts) - sum(dict(chain.from_iterable(map(dict.items, parts))).values())
+    again = sum(sum(each.values()) for each in parts) - sum(
+        dict(chain.from_iterable(map(dict.items, parts))).values()
+    )
     return sum(facts.get(f"{way}_bytes") or 0 for facts in files) - again
 
 
@@ -220,26 +281,36 @@ def largest_error(files: Sequence[Facts]) -> str:
             # Distances of surfaces and errors of vertices are two measures, and have each a worst file.
             worst[kind] = max(worst.get(kind, facts), facts, key=lambda one: float(one[name]))
     whole = "" if unit else " of the diagonal"
-    return " and ".join(f"{_length(facts, unit)}{whole} ({facts['input']}{kind})" for kind, facts in worst.items())
+    return " and ".join(
+        f"{_length(facts, unit)}{whole} ({facts['input']}{kind})" for kind, facts in worst.items()
+    )
 
 
 def _unit(files: Sequence[Facts]) -> str:
     """The unit that the errors of all files have; where they differ, errors are relative."""
-    found = {facts.get("unit", "") for facts in files if facts.get("max_error_relative") is not None}
+    found = {
+        facts.get("unit", "") for facts in files if facts.get("max_error_relative") is not None
+    }
     # Millimeters and inches have no common largest error.
     return found.pop() if len(found) == 1 else ""
 
 
 def _length(facts: Facts, unit: str) -> str:
-    return f"{facts['max_error']:.3g} {unit}" if unit else f"{100 * facts['max_error_relative']:.3g} %"
+    return (
+        f"{facts['max_error']:.3g} {unit}" if unit else f"{100 * facts['max_error_relative']:.3g} %"
+    )
 
 
 def table(files: Sequence[Facts]) -> Iterator[str]:
     """Bytes, ratio, error and time of files, failures first, then the largest errors; lines of text."""
     # Failures and large errors first: a table of a thousand files is read from its top.
-    rows = sorted(files, key=lambda facts: ("error" not in facts, -(facts.get("max_error_relative") or 0.0)))
+    rows = sorted(
+        files, key=lambda facts: ("error" not in facts, -(facts.get("max_error_relative") or 0.0))
+    )
     rows = rows[: max(_SHOWN, sum("error" in facts for facts in rows))]
-    users = Counter(part for facts in files for way in _WAYS for part in facts.get(f"{way}_parts") or ())
+    users = Counter(
+        part for facts in files for way in _WAYS for part in facts.get(f"{way}_parts") or ()
+    )
     shared = {part for part, count in users.items() if count > 1}
     unit, notes = _unit(files), sum(len(facts.get("notes") or ()) for facts in files)
     width = max([len(facts["input"]) for facts in rows] + [5])
@@ -249,7 +320,14 @@ def table(files: Sequence[Facts]) -> Iterator[str]:
     # Bytes of a shared image would count in each row, and the rows would add up to more than the sum.
     if shared:
         sizes = (
-            sum({p: s for f in files for p, s in (f.get(f"{w}_parts") or {}).items() if p in shared}.values())
+            sum(
+                {
+                    p: s
+                    for f in files
+                    for p, s in (f.get(f"{w}_parts") or {}).items()
+                    if p in shared
+                }.values()
+            )
             for w in _WAYS
         )
         yield f"{counted(files=len(shared))} of several rows, which count once: {' -> '.join(map(str, sizes))} bytes"
@@ -262,7 +340,9 @@ def table(files: Sequence[Facts]) -> Iterator[str]:
 def _alone(facts: Facts, shared: Set[str]) -> Facts:
     """The facts of a file without the bytes of those that others use, too."""
     less = {
-        f"{way}_bytes": sum(size for part, size in (facts.get(f"{way}_parts") or {}).items() if part in shared)
+        f"{way}_bytes": sum(
+            size for part, size in (facts.get(f"{way}_parts") or {}).items() if part in shared
+        )
         for way in _WAYS
     }
     return facts | {name: facts[name] - size for name, size in less.items() if size}

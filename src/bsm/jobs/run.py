@@ -17,7 +17,18 @@ from bsm.files.output import refuse_collisions, refuse_to_overwrite
 from bsm.ground.console import Console, Progress, print_json
 from bsm.ground.exits import exit_of, report_error, worded
 from bsm.ground.lengths import UnitError
-from bsm.jobs.task import Facts, Job, Outcome, Outcomes, Task, Tasks, Work, anywhere, came_to, outcome_of
+from bsm.jobs.task import (
+    Facts,
+    Job,
+    Outcome,
+    Outcomes,
+    Task,
+    Tasks,
+    Work,
+    anywhere,
+    came_to,
+    outcome_of,
+)
 
 if TYPE_CHECKING:
     from bsm.jobs.report import Earlier, Report
@@ -44,7 +55,12 @@ class Batch:
 
 
 def run_jobs(
-    run: Batch, asked: Task, console: Console, work: Work, jobs: Sequence[Job], show: Show | None = None
+    run: Batch,
+    asked: Task,
+    console: Console,
+    work: Work,
+    jobs: Sequence[Job],
+    show: Show | None = None,
 ) -> int:
     """Do all jobs of a command and print their results; return the exit code."""
     # A single job needs neither processes nor a table. Its errors are raised as they are, and end the command.
@@ -83,7 +99,9 @@ def run_jobs(
         console.note(f"{asked_once} files in all have no unit")
     for line in table(done) if run.report is not None else ():
         console.note(line)
-    console.note(f"{len(good)} of {counted(files=len(done))}{sizes}, {time.perf_counter() - begin:.2f} s")
+    console.note(
+        f"{len(good)} of {counted(files=len(done))}{sizes}, {time.perf_counter() - begin:.2f} s"
+    )
     if console.json:
         print_json({"files": done})
     # One code for the whole run. That of the first failure is the same each time, in whatever order jobs end.
@@ -91,22 +109,32 @@ def run_jobs(
 
 
 def run_many(
-    run: Batch, asked: Task, console: Console, work: Work, jobs: Sequence[Job], ended: Ended = lambda job, outcome: None
+    run: Batch,
+    asked: Task,
+    console: Console,
+    work: Work,
+    jobs: Sequence[Job],
+    ended: Ended = lambda job, outcome: None,
 ) -> list[Facts]:
     """Do all jobs, and report them in order. A failed job stops only the jobs that need it."""
     jobs = jobs if run.dask is None else _on_all_machines(jobs)
     work, earlier, report = _reported(run, asked, work, jobs)
     done: list[Facts] = [{} for _ in jobs]
     # The size of a remote file costs a request each, and it would only serve a bar.
-    local = [None if job.input == "-" or pipes.is_url(job.input) else pipes.size_of(job.input) for job in jobs]
-    sizes, finished = [max(size or 0, LEAST) for size in local], 0  # work is reported in proportion to these
+    local = [
+        None if job.input == "-" or pipes.is_url(job.input) else pipes.size_of(job.input)
+        for job in jobs
+    ]
+    # Work is reported in proportion to these.
+    sizes, finished = [max(size or 0, LEAST) for size in local], 0
     # The library's sorter gives out jobs as soon as those before them have ended, in any order.
     order = TopologicalSorter({number: job.after for number, job in enumerate(jobs)})
     order.prepare()
 
     def task(number: int) -> Task:
         found = task_of(asked, jobs[number], earlier)
-        return found if run.dask is None else found.repeated()  # a cluster repeats jobs of workers that died
+        # A cluster repeats jobs of workers that died.
+        return found if run.dask is None else found.repeated()
 
     def taken(outcomes: Outcomes, progress: Progress) -> Outcomes:
         nonlocal finished
@@ -124,7 +152,10 @@ def run_many(
     tasks = _tasks(order, task)
     try:
         # Closed however the loop ends, since processes would otherwise go on working.
-        with console.progress() as progress, closing(_outcomes(run, console, work, tasks, sizes)) as outcomes:
+        with (
+            console.progress() as progress,
+            closing(_outcomes(run, console, work, tasks, sizes)) as outcomes,
+        ):
             for number, outcome in _in_order(taken(outcomes, progress)):
                 ended(jobs[number], outcome)
     # An interrupted run has a report as well, from which --resume goes on.
@@ -158,7 +189,9 @@ def _tasks(order: TopologicalSorter[int], task: Callable[[int], Task]) -> Tasks:
             yield None
 
 
-def _reported(run: Batch, asked: Task, work: Work, jobs: Sequence[Job]) -> "tuple[Work, Earlier | None, Report | None]":
+def _reported(
+    run: Batch, asked: Task, work: Work, jobs: Sequence[Job]
+) -> "tuple[Work, Earlier | None, Report | None]":
     """Return work that is reported, what an earlier report holds, and the new one, if a report is wanted."""
     if run.report is None:
         if run.resume:
@@ -204,11 +237,15 @@ def task_of(asked: Task, job: Job, earlier: "Earlier | None" = None) -> Task:
     replaceable = {job.output, *([before["output"]] if before else [])} - {"", "-"}
     # Asked before the work begins. What is made later is the run's own, and may be replaced when a job is repeated.
     there = {
-        n for n in replaceable if (pipes.state_of_remote(n) is not None if pipes.is_url(n) else os.path.lexists(n))
+        n
+        for n in replaceable
+        if (pipes.state_of_remote(n) is not None if pipes.is_url(n) else os.path.lexists(n))
     }
     named = replaceable & outputs.keys()
     # A file that an earlier run wrote may be replaced if it has not been changed since. Its digest tells that.
-    mine = frozenset(name for name in named if name not in there or outputs[name] == pipes.digest_of(name))
+    mine = frozenset(
+        name for name in named if name not in there or outputs[name] == pipes.digest_of(name)
+    )
     return replace(
         asked,
         input=job.input,
@@ -222,7 +259,9 @@ def task_of(asked: Task, job: Job, earlier: "Earlier | None" = None) -> Task:
     )
 
 
-def _outcomes(run: Batch, console: Console, work: Work, tasks: Tasks, sizes: Sequence[int]) -> Outcomes:
+def _outcomes(
+    run: Batch, console: Console, work: Work, tasks: Tasks, sizes: Sequence[int]
+) -> Outcomes:
     """Do jobs on a cluster, in processes, or one after the other here, each as a part of all."""
     finished, count = 0, len(sizes)
     processes = min(run.jobs or available_threads(), count)
@@ -238,6 +277,8 @@ def _outcomes(run: Batch, console: Console, work: Work, tasks: Tasks, sizes: Seq
     # With one process, tasks never wait for each other, so None means that all are done.
     for number, task in iter(partial(next, tasks), None):
         finished += sizes[number]
-        with console.progress(f"{number + 1} of {count}" if count > 1 else "", finished / sum(sizes)):
+        with console.progress(
+            f"{number + 1} of {count}" if count > 1 else "", finished / sum(sizes)
+        ):
             outcome = outcome_of(work, task, console)
         yield number, outcome

@@ -11,7 +11,8 @@ from bsm.ground.console import Console
 from bsm.ground.exits import behind, is_expected
 
 _Same = TypeVar("_Same", bound="Task")
-Facts = dict[str, Any]  # the result for an input, ready for JSON; `input_bytes`, `output_bytes` are summed up
+# The result for an input, ready for JSON; `input_bytes`, `output_bytes` are summed up.
+Facts = dict[str, Any]
 
 
 @dataclass(frozen=True)
@@ -19,7 +20,8 @@ class Job:
     input: str
     output: str = ""
     after: tuple[int, ...] = ()  # numbers of the jobs before it whose outputs it needs
-    follow: bool | str = False  # the user gave the name of the output, or a folder: see `open_output`
+    # The user gave the name of the output, or a folder: see `open_output`.
+    follow: bool | str = False
     within: str = ""  # the folder in which the input was found
 
 
@@ -30,7 +32,8 @@ class Task:
 
     input: str = ""
     output: str = ""
-    follow: bool | str = True  # the user gave the name of the output, or a folder: see `open_output`
+    # The user gave the name of the output, or a folder: see `open_output`.
+    follow: bool | str = True
     within: str = ""  # the folder in which the input was found
     force: bool = False
     quiet: bool = False
@@ -66,8 +69,10 @@ class UnexpectedError(Exception):
 
 
 Numbered: TypeAlias = tuple[int, Task]
-Tasks: TypeAlias = Iterator[Numbered | None]  # made when needed; None: the next ones wait for others
-Outcomes: TypeAlias = Generator[tuple[int, Outcome], None, None]  # numbers of jobs and their outcomes, as they end
+# Made when needed; None: the next ones wait for others.
+Tasks: TypeAlias = Iterator[Numbered | None]
+# Numbers of jobs and their outcomes, as they end.
+Outcomes: TypeAlias = Generator[tuple[int, Outcome], None, None]
 
 
 def outcome_of(work: Work, task: Task, console: Console) -> Outcome:
@@ -79,7 +84,11 @@ def outcome_of(work: Work, task: Task, console: Console) -> Outcome:
             return Outcome(work(task, console), notes=tuple(console.kept or ()))
     # A fault of one file is an outcome like any other. Signals and closed pipes concern the whole run, and pass.
     except Exception as error:
-        if behind(error) is not error or isinstance(error, BrokenPipeError) or console.stopped_by(error):
+        if (
+            behind(error) is not error
+            or isinstance(error, BrokenPipeError)
+            or console.stopped_by(error)
+        ):
             raise
         failure = error
         if not is_expected(error):

@@ -11,7 +11,14 @@ import threading
 import time
 import warnings
 from collections.abc import Callable, Generator, Iterator
-from concurrent.futures import FIRST_COMPLETED, CancelledError, Executor, Future, ProcessPoolExecutor, wait
+from concurrent.futures import (
+    FIRST_COMPLETED,
+    CancelledError,
+    Executor,
+    Future,
+    ProcessPoolExecutor,
+    wait,
+)
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import AbstractContextManager, contextmanager
 from functools import partial
@@ -26,12 +33,15 @@ from bsm.jobs.task import Outcome, Outcomes, Task, Tasks, Work, outcome_of
 # One more than each process needs, so that it never waits for this one; no more, since tasks are made when needed.
 AHEAD = 2  # jobs handed out for each process, and for each thread of a cluster
 # Long enough to remove unfinished files, and short enough for someone who waits for the prompt.
-GRACE = 3.0  # seconds that a process has to clear away, once its parent is gone, and once it was asked to end
-_OFTEN, _SILENT = 1.0, 5.0  # seconds from one look at a cluster to the next, and until a wait for workers is reported
+# Seconds that a process has to clear away, once its parent is gone, and once it was asked to end.
+GRACE = 3.0
+# Seconds from one look at a cluster to the next, and until a wait for workers is reported.
+_OFTEN, _SILENT = 1.0, 5.0
 
 Handed = dict[int, Task]
 Count = Callable[[], int]
-Pool = tuple[Executor, Count, type[Exception]]  # with its number of processes, at times, and the error if one dies
+# With its number of processes, at times, and the error if one dies.
+Pool = tuple[Executor, Count, type[Exception]]
 Pools = Callable[[], AbstractContextManager[Pool]]
 
 
@@ -40,7 +50,9 @@ def in_processes(work: Work, tasks: Tasks, processes: int) -> Outcomes:
         yield from _outlived(work, tasks, partial(_processes, processes))
 
 
-def on_cluster(work: Work, tasks: Tasks, address: str, patience: float, console: Console) -> Outcomes:
+def on_cluster(
+    work: Work, tasks: Tasks, address: str, patience: float, console: Console
+) -> Outcomes:
     """Do jobs on the workers of a cluster; other workers repeat the jobs of a worker that dies.
 
     An `OSError` is raised if it has had no worker for `patience` seconds.
@@ -48,7 +60,9 @@ def on_cluster(work: Work, tasks: Tasks, address: str, patience: float, console:
     try:
         yield from _outlived(work, tasks, partial(_workers, address, patience, console))
     except CancelledError as error:
-        raise OSError(errno.ECONNRESET, "the connection to the Dask scheduler was lost", address) from error
+        raise OSError(
+            errno.ECONNRESET, "the connection to the Dask scheduler was lost", address
+        ) from error
 
 
 def _outlived(work: Work, tasks: Tasks, pools: Pools) -> Outcomes:
@@ -62,7 +76,9 @@ def _outlived(work: Work, tasks: Tasks, pools: Pools) -> Outcomes:
                 yield number, Outcome({}, MemoryError(f"{task.input}: its process died twice"))
 
 
-def _until_one_dies(work: Work, tasks: Tasks, pools: Pools) -> Generator[tuple[int, Outcome], None, Handed]:
+def _until_one_dies(
+    work: Work, tasks: Tasks, pools: Pools
+) -> Generator[tuple[int, Outcome], None, Handed]:
     """Do jobs until all are done or a process dies; return the submitted jobs that have not ended."""
     handed: Handed = {}
     futures: dict[Future[Outcome], int] = {}
@@ -92,7 +108,9 @@ def _until_one_dies(work: Work, tasks: Tasks, pools: Pools) -> Generator[tuple[i
                     continue
                 # A worker without this package fails by an ImportError deep inside of a library. The user needs to know
                 # where to install it.
-                if missing := [it for it in (error, error and error.__cause__) if isinstance(it, ImportError)]:
+                if missing := [
+                    it for it in (error, error and error.__cause__) if isinstance(it, ImportError)
+                ]:
                     needed = f"scheduler and workers need this package: pip install bsm-codec ({missing[0]})"
                     raise DependencyError(needed) from error
                 del handed[number]
@@ -102,7 +120,9 @@ def _until_one_dies(work: Work, tasks: Tasks, pools: Pools) -> Generator[tuple[i
 @contextmanager
 def _processes(count: int) -> Iterator[Pool]:
     # Not forked: threads of this process may hold locks.
-    pool = ProcessPoolExecutor(count, multiprocessing.get_context("spawn"), initializer=_end_with_parent)
+    pool = ProcessPoolExecutor(
+        count, multiprocessing.get_context("spawn"), initializer=_end_with_parent
+    )
     try:
         yield pool, lambda: count, BrokenProcessPool
     except BaseException:
@@ -128,7 +148,11 @@ def _workers(address: str, patience: float, console: Console) -> Iterator[Pool]:
     logger.setLevel(logging.CRITICAL + 1)
     try:
         with client:
-            yield client.get_executor(pure=False), _cores(client, address, patience, console), distributed.KilledWorker
+            yield (
+                client.get_executor(pure=False),
+                _cores(client, address, patience, console),
+                distributed.KilledWorker,
+            )
     finally:
         logger.setLevel(level)
 
@@ -143,7 +167,11 @@ def _cores(client: Any, address: str, patience: float, console: Console) -> Coun
             last, told = time.monotonic(), False
         waited = time.monotonic() - last
         if waited > patience:
-            raise OSError(errno.ETIMEDOUT, f"this Dask scheduler has had no worker for {patience:g} s", address)
+            raise OSError(
+                errno.ETIMEDOUT,
+                f"this Dask scheduler has had no worker for {patience:g} s",
+                address,
+            )
         if waited > _SILENT and not told:
             told = True
             console.note(

@@ -45,11 +45,15 @@ def checked(picture: bytes, name: str) -> bytes:
                 # another process.
                 image.load()
         except (OSError, ValueError, SyntaxError) as error:
-            raise FormatError("it cannot be read; repair it, or take it away from the mesh") from error
+            raise FormatError(
+                "it cannot be read; repair it, or take it away from the mesh"
+            ) from error
     return picture
 
 
-def skin_of(texcoords: npt.NDArray[np.float32], materials: npt.NDArray[Any], pictures: Sequence[Path]) -> Skin:
+def skin_of(
+    texcoords: npt.NDArray[np.float32], materials: npt.NDArray[Any], pictures: Sequence[Path]
+) -> Skin:
     """The skin of faces by their texture coordinates, shape (faces, 3, 2), and the pictures of their materials."""
     corner_materials = np.repeat(materials, 3).reshape(-1, 3, 1)
     keys = np.dstack([texcoords, corner_materials]).astype(np.float32)
@@ -104,14 +108,18 @@ def cut_out(skin: Skin, pictures: Sequence[Path], factor: int) -> tuple[Skin, An
         for chart in np.flatnonzero(picture_numbers == number).tolist():
             column, top = places[chart].tolist()
             across, down = sizes[chart].tolist()
-            atlas[top : top + down, column : column + across] = _cut_chart(picture, low[chart], sizes[chart], factor)
+            atlas[top : top + down, column : column + across] = _cut_chart(
+                picture, low[chart], sizes[chart], factor
+            )
     chart_of_corner = np.repeat(charts, 3).reshape(-1, 3)
     skin = np.dstack([corners, np.zeros_like(chart_of_corner), chart_of_corner])
     image = imported("PIL.Image", *_NEED).fromarray(_spread(atlas, corners))
     return skin.astype(np.float32), image
 
 
-def _cut_chart(picture: npt.NDArray[np.uint8], low: Any, size: Any, factor: int) -> npt.NDArray[Any]:
+def _cut_chart(
+    picture: npt.NDArray[np.uint8], low: Any, size: Any, factor: int
+) -> npt.NDArray[Any]:
     """Return the texels of a chart from the place `low` on, each the mean of `factor` along each side."""
     x, y = (low * factor).tolist()
     across, down = size.tolist()
@@ -142,7 +150,9 @@ def _packed(sizes: npt.NDArray[np.int64]) -> tuple[npt.NDArray[np.int64], int, i
         x += across
     tall = y + shelf
     if max(wide, tall) >= _MOST_SIDE:
-        raise LimitError(f"the texture of a tile has {wide} x {tall} texels; choose fewer --triangles")
+        raise LimitError(
+            f"the texture of a tile has {wide} x {tall} texels; choose fewer --triangles"
+        )
     return places, wide, tall
 
 
@@ -171,7 +181,11 @@ def textured(mesh: TriangleMesh, skin: Skin, atlas: Any, rule: ImageRule) -> Tri
     atlas.thumbnail((side, side))
     file = io.BytesIO()
     atlas.save(file, rule.kind, quality=rule.quality)
-    image: Metadata = {"material.0.map_Kd": 0, "image.0.name": f"atlas.{rule.kind}", "image.0.data": file.getvalue()}
+    image: Metadata = {
+        "material.0.map_Kd": 0,
+        "image.0.name": f"atlas.{rule.kind}",
+        "image.0.data": file.getvalue(),
+    }
     return replace(mesh, attributes=(*mesh.attributes, texcoord), metadata=image)
 
 

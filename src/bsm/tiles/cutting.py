@@ -25,7 +25,8 @@ Ints: TypeAlias = npt.NDArray[np.int64]
 Places: TypeAlias = npt.NDArray[np.int32]
 DEPTH = 10  # levels below the first that has to be cut
 # A page shows the coarsest level first, and the user waits for it. The size of the whole mesh must not matter for that.
-COARSEST = 1 << 13  # triangles of the coarsest level at most, about: ten kilobytes until a first picture
+# Triangles of the coarsest level at most, about: ten kilobytes until a first picture.
+COARSEST = 1 << 13
 # Below a level that a table has room for, only nodes that must be cut again are counted one by one.
 _COUNTED = 7  # levels all of whose nodes are counted: 8^7 entries are 16 MB
 _SAMPLE = 40_000
@@ -35,7 +36,13 @@ _NEARER = 1.25  # samples are so much larger than in a picture of the whole, sin
 # Doubles hold all integers up to 2^53, but places are added and subtracted as 32-bit integers. This leaves a bit for
 # that.
 _FARTHEST = 1 << 30  # from the origin, in cells
-_SPREAD = (0x1F00000000FFFF, 0x1F0000FF0000FF, 0x100F00F00F00F00F, 0x10C30C30C30C30C3, 0x1249249249249249)
+_SPREAD = (
+    0x1F00000000FFFF,
+    0x1F0000FF0000FF,
+    0x100F00F00F00F00F,
+    0x10C30C30C30C30C3,
+    0x1249249249249249,
+)
 """How 21 bits come to stand three apart."""
 
 
@@ -93,7 +100,9 @@ def chosen_lattice(
     return lattice, slides
 
 
-def _require_reach(lattice: Lattice, ends: npt.NDArray[np.float64], short: bool, has_origin: bool) -> None:
+def _require_reach(
+    lattice: Lattice, ends: npt.NDArray[np.float64], short: bool, has_origin: bool
+) -> None:
     """Raise `OptionError` for a lattice whose cells do not represent every position exactly."""
     reach = float(np.abs(ends - np.array(lattice.origin)).max())
     farthest = reach / lattice.cell
@@ -105,7 +114,9 @@ def _require_reach(lattice: Lattice, ends: npt.NDArray[np.float64], short: bool,
     least = math.ceil(math.log2(2 * extent / _FARTHEST))
     better = 2.0 ** max(math.floor(math.log2(lattice.cell)), least)
     message = f"the mesh is {farthest:.3g} cells of {lattice.cell:g} from the origin of the grid, too far to tell "
-    raise OptionError(f"{message}places exactly; a power of two does, such as --grid-cell {better!r}")
+    raise OptionError(
+        f"{message}places exactly; a power of two does, such as --grid-cell {better!r}"
+    )
 
 
 def _by_look(raw: Raw, threads: int) -> tuple[float, bool]:
@@ -271,7 +282,9 @@ def cut(raw: Raw, lattice: Lattice, slides: bool, most: int) -> Plan:
     columns = 7 if raw.textures else 3
     kinds |= {"codes": ("<i8", 1), "outside": ("<i8", 5), "cut": ("<u4", columns)}
     corner = tuple(low.tolist())
-    plan = Plan(corner, bits, lattice, depth, vertices, faces, kinds, {}, slides, raw.about, raw.textures)
+    plan = Plan(
+        corner, bits, lattice, depth, vertices, faces, kinds, {}, slides, raw.about, raw.textures
+    )
     with table_file(raw.folder / "codes") as file:
         for piece in raw.pieces("positions"):
             file.write(plan.codes(lattice.places(piece)).data)
@@ -349,7 +362,9 @@ def _sort_faces(plan: Plan, raw: Raw) -> None:
             begins, ends = first_codes[leaf, None], end_codes[leaf, None]
             row, corner = np.nonzero((codes < begins) | (codes >= ends))
             positions = raw.table("positions")[faces[row, corner]]
-            corner_rows = np.column_stack([codes[row, corner], plan.lattice.places(positions), begins[row]])
+            corner_rows = np.column_stack(
+                [codes[row, corner], plan.lattice.places(positions), begins[row]]
+            )
             outside.append(np.unique(corner_rows, axis=0))
     with table_file(raw.folder / "outside") as file:
         file.write(np.unique(np.concatenate(outside), axis=0).tobytes())

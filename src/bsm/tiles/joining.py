@@ -35,13 +35,19 @@ TILESET, _CONTENT = "tileset.json", "glb"
 _NORMALS = "6bits"  # near those that decoders predict, so that they take a bit or two
 # 3D Tiles knows one error for a tile. Without this factor, a viewer would load a finer tile only when texels of the
 # coarse one are 16 pixels wide.
-_SEEN = 16.0  # times its error, of a tile with a texture: viewers let errors have 16 pixels by default, not texels
+# Times its error, of a tile with a texture: viewers let errors have 16 pixels by default, not texels.
+_SEEN = 16.0
 CONTENTS = ("bsm", "plain")
 CONTENT_HELP = "GLBs of a tileset: bsm (default, small), or plain, for programs without our decoder"
 
 
 def write_joined(
-    tiles: Tiles, chosen: Iterable[tuple[Facts, Tile]], output: str, console: Console, *, overwrite: bool
+    tiles: Tiles,
+    chosen: Iterable[tuple[Facts, Tile]],
+    output: str,
+    console: Console,
+    *,
+    overwrite: bool,
 ) -> dict[str, int]:
     """Write a binary PLY of tiles; vertices that they share are one."""
     # The tiles are walked twice, first to find shared vertices, and then to number them.
@@ -96,7 +102,13 @@ def write_joined(
             face_lines, face_rows = table_of([("vertex_indices", indices)])
             corners.write(face_rows.tobytes())
         comments = [f"comment {line}" for line in remarks(tiles.about)[0]]
-        lines = ["ply", "format binary_little_endian 1.0", *comments, f"element vertex {vertices}", *point_lines]
+        lines = [
+            "ply",
+            "format binary_little_endian 1.0",
+            *comments,
+            f"element vertex {vertices}",
+            *point_lines,
+        ]
         lines += [f"element face {faces}", *face_lines, "end_header", ""]
         with open_output(output, overwrite=overwrite) as file, console.progress("writing"):
             file.write("\n".join(lines).encode())
@@ -110,7 +122,9 @@ def _places_in(shared: Table, table: Table) -> Ints:
     """Which of the `shared` vertices each one of a table is; -1: none."""
     places, shared_places = table[:, :3], shared[:, :3]
     # Comparing with the whole table would take quadratic time over all tiles.
-    is_near = ((shared_places >= places.min(axis=0)) & (shared_places <= places.max(axis=0))).all(axis=1)
+    is_near = ((shared_places >= places.min(axis=0)) & (shared_places <= places.max(axis=0))).all(
+        axis=1
+    )
     near_rows = np.flatnonzero(is_near)
     numbers = row_numbers(np.concatenate([shared[near_rows], table]))
     near_numbers, table_numbers = np.split(numbers, [len(near_rows)])
@@ -119,7 +133,9 @@ def _places_in(shared: Table, table: Table) -> Ints:
     return row_of_number[table_numbers]
 
 
-def write_tileset(tiles: Tiles, folder: str, console: Console, *, content: str = CONTENTS[0], overwrite: bool) -> int:
+def write_tileset(
+    tiles: Tiles, folder: str, console: Console, *, content: str = CONTENTS[0], overwrite: bool
+) -> int:
     """Write tileset.json of 3D Tiles 1.1, and beside it each tile as a GLB with normals; return their bytes."""
     tiles_by_name = {tile.name: (shard, tile) for shard, tile in tiles.all()}
     size, share = 0, 1.0
@@ -151,7 +167,12 @@ def write_tileset(tiles: Tiles, folder: str, console: Console, *, content: str =
             data = write_glb(mesh, name).data
             if content == "bsm":
                 data = compress(Document(data), options).data
-            write_output(posixpath.join(folder, f"{_CONTENT}/{name}.glb"), data, overwrite=overwrite, follow=False)
+            write_output(
+                posixpath.join(folder, f"{_CONTENT}/{name}.glb"),
+                data,
+                overwrite=overwrite,
+                follow=False,
+            )
             size += len(data)
             progress(number, len(tiles_by_name))
     errors = {name: share * tile.error for name, (_, tile) in tiles_by_name.items()}
@@ -205,4 +226,8 @@ def _tree(tiles: Tiles, errors: Mapping[str, float], ends: Mapping[str, Ints]) -
     moved[:3, :3] = placed.matrix
     moved[:3, 3] = placed.matrix @ tiles.lattice.positions(low)
     root["transform"] = moved.T.ravel().tolist()
-    return {"asset": {"version": "1.1", "generator": "bsm"}, "geometricError": diagonal * placed.scale, "root": root}
+    return {
+        "asset": {"version": "1.1", "generator": "bsm"},
+        "geometricError": diagonal * placed.scale,
+        "root": root,
+    }

@@ -78,7 +78,9 @@ def tile_one(job: TileJob, console: Console) -> Facts:
                 write_npy(file, table)
     written_mesh = replace(written_mesh, positions=plan.lattice.positions(places))
     # One thread: tiles are encoded side by side, in processes, and those have all cores already.
-    part = given_part(written_mesh, grid_cell=plan.lattice.cell, grid_origin=tuple(plan.lattice.origin), threads=1)
+    part = given_part(
+        written_mesh, grid_cell=plan.lattice.cell, grid_origin=tuple(plan.lattice.origin), threads=1
+    )
     data = b"".join(part.encode(Progress("")).attempt.frames)
     write_output(job.output, data, overwrite=True, follow=False)
     ends = {"low": places.min(axis=0).tolist(), "high": places.max(axis=0).tolist()}
@@ -236,7 +238,11 @@ def _coarser(plan: Plan, name: str, folder: Path, most: int) -> tuple[TriangleMe
 
 
 def simplified(
-    places: Places, faces: Faces, locked: npt.NDArray[np.bool_], target: int, wedges: Faces | None = None
+    places: Places,
+    faces: Faces,
+    locked: npt.NDArray[np.bool_],
+    target: int,
+    wedges: Faces | None = None,
 ) -> tuple[Places, Faces, Faces]:
     """Simplify to about `target` triangles; locked and border vertices stay. Also return the wedges of the result."""
     low = places.min(axis=0).astype(np.float64)

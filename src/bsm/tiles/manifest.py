@@ -9,7 +9,13 @@ from dataclasses import dataclass
 from typing import Any, NoReturn
 
 from bsm.bitstream.container.wire import MAJOR
-from bsm.bitstream.errors import BsmError, CorruptError, FormatError, TruncatedError, UnsupportedError
+from bsm.bitstream.errors import (
+    BsmError,
+    CorruptError,
+    FormatError,
+    TruncatedError,
+    UnsupportedError,
+)
 from bsm.bitstream.limits import Limits
 from bsm.files.pipes import Input, place_of
 from bsm.files.stream import MANIFEST
@@ -74,12 +80,16 @@ def read_manifest(path: str, limits: Limits) -> tuple[Facts, Lattice, Root, Kind
         if facts["format"] != "bsm tiles":
             raise KeyError("format")
         if facts["version"] != 1:
-            raise FormatError(f"{name}: these tiles are of version {facts['version']!r}; this program knows 1")
+            raise FormatError(
+                f"{name}: these tiles are of version {facts['version']!r}; this program knows 1"
+            )
         # Refused here: otherwise each tile is refused on its own, with an error about a stream.
         if (major := facts.get("stream", 0)) != MAJOR:  # version 0 had no such entry
             older = "encode the source again, or decode it with the release that wrote it"
             message = f"{name}: these tiles are written by version {major} of the format, and this reads {MAJOR}: "
-            raise UnsupportedError(message + (older if major < MAJOR else "a later release reads it"))
+            raise UnsupportedError(
+                message + (older if major < MAJOR else "a later release reads it")
+            )
         if facts.get("complete") is False:
             resume = shlex.join(("bsm", "tile", str(facts["source"]), "-o", path, "--resume"))
             message = f"these tiles are unfinished; with its other options, {resume} goes on"
@@ -99,22 +109,31 @@ def _checked(facts: Facts) -> tuple[Facts, Lattice, Root, Kinds]:
     if not cell >= 1.0 / _LARGEST:
         raise ValueError(f"the cell is {cell}")
     # A name of a numpy type comes from the file. Others than these three could take any amount of memory.
-    kinds = {what: (str(kind), whole(size, 3, 4)) for what, (kind, size) in facts.get("attributes", {}).items()}
+    kinds = {
+        what: (str(kind), whole(size, 3, 4))
+        for what, (kind, size) in facts.get("attributes", {}).items()
+    }
     if any(what not in CARRIED or kind not in _KINDS for what, (kind, _) in kinds.items()):
         raise ValueError("attributes")
-    if not all(isinstance(facts[key], str) for key in ("source", *ABOUT) if key in facts or key == "source"):
+    if not all(
+        isinstance(facts[key], str) for key in ("source", *ABOUT) if key in facts or key == "source"
+    ):
         raise ValueError("source, unit or up")
     for key in ("vertices", "faces"):
         whole(facts[key], 1)
     for number, level in enumerate(_listed(facts["levels"])):
         [whole(level[key], 1) for key in ("tiles", "faces", "bytes")]
         # A cube has at most 2^59 places along a side, so there are no deeper levels.
-        if whole(level["level"]) > 60 or (number and level["level"] <= facts["levels"][number - 1]["level"]):
+        if whole(level["level"]) > 60 or (
+            number and level["level"] <= facts["levels"][number - 1]["level"]
+        ):
             raise ValueError("the order of levels")
         real(level["error"], 0.0)
     for shard in _listed(facts["shards"]):
         # The name becomes a part of a path or URL. A name like ../x would lead out of the folder.
-        if not re.fullmatch(r"\d{5,9}\.tiles", shard["file"]) or not _SUM.fullmatch(shard["sha256"]):
+        if not re.fullmatch(r"\d{5,9}\.tiles", shard["file"]) or not _SUM.fullmatch(
+            shard["sha256"]
+        ):
             raise ValueError(shard["file"])
         whole(shard["index"], 2, whole(shard["size"]) - FOOT)
         whole(shard["tiles"], 1)
@@ -131,14 +150,20 @@ def parse_index(name: str, data: bytes, shard: Mapping[str, Any], root: Root) ->
         if len(tiles) != shard["tiles"] or len({tile.name for tile in tiles}) < len(tiles):
             raise ValueError(f"{len(tiles)} tiles")
         for tile in tiles:
-            if not re.fullmatch("r[0-7]{0,59}", tile.name) or tile.level > root.bits or not _SUM.fullmatch(tile.sha256):
+            if (
+                not re.fullmatch("r[0-7]{0,59}", tile.name)
+                or tile.level > root.bits
+                or not _SUM.fullmatch(tile.sha256)
+            ):
                 raise ValueError(tile.name)
             # An offset that is too large would make a server send nothing, or another tile.
             whole(tile.offset, 0, shard["size"] - shard["index"] - FOOT - whole(tile.size, 1))
             [whole(count, 1) for count in (tile.vertices, tile.faces)]
             real(tile.error, 0.0)
     except NO_JSON as error:
-        raise CorruptError(f"{name}: the index at the end of this shard is invalid: {error!r:.300}") from error
+        raise CorruptError(
+            f"{name}: the index at the end of this shard is invalid: {error!r:.300}"
+        ) from error
     return tiles
 
 

@@ -16,7 +16,15 @@ import numpy.typing as npt
 from bsm.bitstream.errors import FormatError, LimitError, MeshError, TruncatedError
 from bsm.bitstream.limits import DEFAULT_LIMITS
 from bsm.codec.geometry.mesh import Metadata
-from bsm.files.formats.metadata import Beside, Value, fetched, images_in, materials_in, names_in, parse_remarks
+from bsm.files.formats.metadata import (
+    Beside,
+    Value,
+    fetched,
+    images_in,
+    materials_in,
+    names_in,
+    parse_remarks,
+)
 from bsm.files.formats.obj import read_obj
 from bsm.files.formats.ply import MOST_HEADER, Element, parse_header
 from bsm.files.formats.polygons import CROSSING, triangulate
@@ -28,7 +36,8 @@ from bsm.ground.console import Console
 from bsm.tiles.atlas import checked
 
 Array: TypeAlias = npt.NDArray[Any]
-Pieces: TypeAlias = Iterator[tuple[str, Array]]  # some rows of "positions", "faces", "color", "normal" or "texcoord"
+# Some rows of "positions", "faces", "color", "normal" or "texcoord".
+Pieces: TypeAlias = Iterator[tuple[str, Array]]
 Kinds: TypeAlias = Mapping[str, tuple[str, int]]  # of numbers in a table, and how many a row has
 ABOUT = ("unit", "up", "provenance")
 CARRIED = {"color": ("red", "green", "blue", "alpha"), "normal": ("nx", "ny", "nz")}
@@ -59,9 +68,11 @@ class Raw:
     rows: dict[str, int] = field(default_factory=lambda: {"positions": 0, "faces": 0})
     low: tuple[float, ...] = ()
     high: tuple[float, ...] = ()
-    left_out: dict[str, None] = field(default_factory=dict)  # names of contents that tiles do not have, in order
+    # Names of contents that tiles do not have, in order.
+    left_out: dict[str, None] = field(default_factory=dict)
     about: dict[str, str] = field(default_factory=dict)  # the entries of ABOUT
-    metadata: dict[str, Value] = field(default_factory=dict)  # with materials and images, of a file read as a whole
+    # With materials and images, of a file read as a whole.
+    metadata: dict[str, Value] = field(default_factory=dict)
     libraries: dict[str, None] = field(default_factory=dict)
     materials: dict[str, int] = field(default_factory=dict)  # their numbers, by their names
     textures: int = 0  # pictures of materials, in files of the folder
@@ -150,7 +161,9 @@ def read_big(name: str, file_format: str | None, folder: Path, console: Console)
         # vertex, so a gap would move the colors of all vertices after it.
         count = raw.rows.get(what, vertices)
         if count != vertices:
-            raise MeshError(f"{count} of {vertices} vertices have a {what}: give all of them one, or none")
+            raise MeshError(
+                f"{count} of {vertices} vertices have a {what}: give all of them one, or none"
+            )
     parent = None if is_url(name) or name == "-" else Path(name).parent
     textures = _textures(raw, Beside(parent, DEFAULT_LIMITS))
     return replace(raw, low=tuple(low.tolist()), high=tuple(high.tolist()), textures=textures)
@@ -161,7 +174,9 @@ def _textures(raw: Raw, beside: Beside) -> int:
     if raw.rows.get("texcoord", 0) <= 1:
         return 0
     names = {f"material.{number}.name": name for name, number in raw.materials.items()}
-    contents, notes, lost = fetched({**raw.metadata, **names, "mtllib": "\n".join(raw.libraries)}, beside.read)
+    contents, notes, lost = fetched(
+        {**raw.metadata, **names, "mtllib": "\n".join(raw.libraries)}, beside.read
+    )
     images, materials = images_in(contents), materials_in(contents)
     sound_images: dict[Any, bytes] = {}
     pictures: list[bytes] = []
@@ -192,7 +207,9 @@ def _checked(what: str, piece: Array, before: int) -> Array:
     floats = piece.dtype.kind == "f"
     if floats and not np.isfinite(piece).all():
         row = before + int(np.argmin(np.isfinite(piece).all(axis=1)))
-        raise MeshError(f"vertex {row} has a {_WORDS[what]} that is not finite; remove or repair it")
+        raise MeshError(
+            f"vertex {row} has a {_WORDS[what]} that is not finite; remove or repair it"
+        )
     if what == "positions":
         return piece if floats and piece.dtype.itemsize == 4 else piece.astype("<f8")
     if what in ("normal", "texcoord"):
@@ -203,14 +220,18 @@ def _checked(what: str, piece: Array, before: int) -> Array:
         if floats and piece.min() >= 0 and piece.max() <= 1:
             return np.asarray(np.rint(piece * 255), "u1")
         if piece.dtype.kind != "u" or piece.dtype.itemsize > 2:
-            raise MeshError(f"colors must be bytes, words, or floats from 0 to 1, not such {piece.dtype}")
+            raise MeshError(
+                f"colors must be bytes, words, or floats from 0 to 1, not such {piece.dtype}"
+            )
         return piece
     if piece.dtype.kind not in "iu":
         raise MeshError(f"faces must be integers, not {piece.dtype}")
     if piece.min() < 0:
         raise MeshError(f"a face refers to vertex {piece.min()}, which does not exist")
     if piece.max() > _MOST_INDEX:
-        raise LimitError(f"a face refers to vertex {piece.max()}; tiles are made of up to {_MOST_INDEX}")
+        raise LimitError(
+            f"a face refers to vertex {piece.max()}; tiles are made of up to {_MOST_INDEX}"
+        )
     return piece.astype("<u4")
 
 
@@ -222,7 +243,9 @@ _WORDS = {
 
 def _read_ply(source_input: Input, raw: Raw) -> Pieces:
     header = parse_header(source_input.peek(MOST_HEADER))
-    lists = [c.name for element in header.elements for c in element.properties if c.length is not None]
+    lists = [
+        c.name for element in header.elements for c in element.properties if c.length is not None
+    ]
     if not header.order or not {*lists} <= {*_CORNERS}:  # text, or rows of different sizes
         # The position in a text file does not tell the number of the row, and lists of two elements could differ in
         # length.
@@ -254,7 +277,9 @@ def _rows_of(element: Element, order: str, source_input: Input, raw: Raw) -> Pie
         size = min(ROWS, element.count - first) * kind.itemsize
         data = source_input.read(size)
         if len(data) < size:
-            raise TruncatedError(f"the PLY file is cut short: from {element.name} {first} on all are missing")
+            raise TruncatedError(
+                f"the PLY file is cut short: from {element.name} {first} on all are missing"
+            )
         rows = np.frombuffer(data, kind)
         if element.name == "vertex":
             for what, columns in tables.items():
@@ -278,7 +303,9 @@ def _row_of(element: Element, order: str) -> np.dtype[Any]:
     names = {field[0] for field in fields}
     needed = {"vertex": {"x", "y", "z"}, "face": {"corners"}}.get(element.name, set())
     if needed - names or len(names) < len(fields):
-        raise FormatError(f"the element {element.name} of the PLY file lacks a property, or has it twice")
+        raise FormatError(
+            f"the element {element.name} of the PLY file lacks a property, or has it twice"
+        )
     return np.dtype(fields)
 
 
@@ -297,7 +324,9 @@ def _read_stl(source_input: Input, raw: Raw) -> Pieces:
         rows = min(ROWS, count - first)
         data = source_input.read(RECORD.itemsize * rows)
         if len(data) < RECORD.itemsize * rows:
-            raise TruncatedError(f"the STL file is cut short: triangle {first} and those after it are missing")
+            raise TruncatedError(
+                f"the STL file is cut short: triangle {first} and those after it are missing"
+            )
         records = np.frombuffer(data, RECORD)
         if records["attribute"].any():
             raw.leave_out("attribute")
@@ -314,7 +343,8 @@ def _read_obj(source_input: Input, raw: Raw) -> Pieces:
     while data := source_input.read(_TEXT):
         text = rest + data
         end = text.rfind(b"\n")
-        while end > 0 and text[max(end - _TEXT_END, 0) : end].rstrip().endswith(b"\\"):  # the line goes on
+        # The line goes on.
+        while end > 0 and text[max(end - _TEXT_END, 0) : end].rstrip().endswith(b"\\"):
             end = text.rfind(b"\n", 0, end)
         if end < 0 and len(text) > _TEXT:
             raise FormatError("this is not an OBJ file: it has no lines")
@@ -387,7 +417,8 @@ def _read_whole(kind: str | None, source_input: Input, raw: Raw) -> Pieces:
     texcoord = attributes.pop("texcoord", None)
     if texcoord is not None:
         rows = 1 + (mesh.faces if texcoord.indices is None else texcoord.indices)
-        yield "texcoord", np.pad(texcoord.values[:, :2], ((1, 0), (0, 0)))  # first, that of corners without
+        # First, that of corners without.
+        yield "texcoord", np.pad(texcoord.values[:, :2], ((1, 0), (0, 0)))
     numbers = np.zeros(len(rows), np.int32)
     if "material" in attributes:
         numbers = attributes["material"].values[:, 0].astype(np.int32)

@@ -14,7 +14,14 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.bitstream.container.wire import MAJOR
-from bsm.bitstream.errors import ArgumentError, BsmError, CorruptError, FormatError, OptionError, public
+from bsm.bitstream.errors import (
+    ArgumentError,
+    BsmError,
+    CorruptError,
+    FormatError,
+    OptionError,
+    public,
+)
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
@@ -39,8 +46,19 @@ _END = b"BSMTILES"  # behind the length of the index, the last bytes of a shard
 # A killed run leaves this manifest. Readers then say that the tiles are unfinished, and not that they are damaged.
 def write_unfinished(folder: str, source: str) -> None:
     """Write the manifest of a run that has not ended."""
-    manifest = {"format": "bsm tiles", "version": 1, "stream": MAJOR, "source": source, "complete": False}
-    write_output(posixpath.join(folder, MANIFEST), json.dumps(manifest).encode(), overwrite=True, follow=False)
+    manifest = {
+        "format": "bsm tiles",
+        "version": 1,
+        "stream": MAJOR,
+        "source": source,
+        "complete": False,
+    }
+    write_output(
+        posixpath.join(folder, MANIFEST),
+        json.dumps(manifest).encode(),
+        overwrite=True,
+        follow=False,
+    )
 
 
 def is_unfinished(folder: str) -> bool | None:
@@ -56,7 +74,9 @@ def is_unfinished(folder: str) -> bool | None:
     except FileNotFoundError:
         return None
     except NO_JSON as error:
-        raise FormatError(f"{name} exists and is not a tile manifest; choose another folder or delete it") from error
+        raise FormatError(
+            f"{name} exists and is not a tile manifest; choose another folder or delete it"
+        ) from error
 
 
 def write_shards(
@@ -72,7 +92,10 @@ def write_shards(
     levels: list[Facts] = []
     for number in sorted({tile.level for tile in tiles}):
         of_level = [tile for tile in tiles if tile.level == number]
-        sums = {"faces": sum(tile.faces for tile in of_level), "bytes": sum(tile.size for tile in of_level)}
+        sums = {
+            "faces": sum(tile.faces for tile in of_level),
+            "bytes": sum(tile.size for tile in of_level),
+        }
         error = max(tile.error for tile in of_level)
         levels.append({"level": number, "tiles": len(of_level), **sums, "error": error})
     manifest = {
@@ -97,7 +120,9 @@ def write_shards(
     return manifest, sum(shard["size"] for shard in shards) + len(text)
 
 
-def _write_shard(folder: str, name: str, waiting: list[Facts], overwrite: bool) -> tuple[Facts, list[Tile]]:
+def _write_shard(
+    folder: str, name: str, waiting: list[Facts], overwrite: bool
+) -> tuple[Facts, list[Tile]]:
     """Write as many of the last tiles as a shard holds; return its entry in the manifest, and these tiles."""
     tiles: list[Tile] = []
     with open_output(posixpath.join(folder, name), overwrite=overwrite, follow=False) as file:
@@ -113,7 +138,12 @@ def _write_shard(folder: str, name: str, waiting: list[Facts], overwrite: bool) 
         # gets it by one range, because the manifest has its size.
         index = json.dumps([asdict(tile) for tile in tiles], separators=(",", ":")).encode()
         file.write(index + len(index).to_bytes(8, "little") + _END)
-    shard = {"file": name, "size": offset + len(index) + FOOT, "index": len(index), "tiles": len(tiles)}
+    shard = {
+        "file": name,
+        "size": offset + len(index) + FOOT,
+        "index": len(index),
+        "tiles": len(tiles),
+    }
     lows, highs = zip(*((tile.low, tile.high) for tile in tiles))
     ends_of = {"low": np.min(lows, axis=0).tolist(), "high": np.max(highs, axis=0).tolist()}
     return shard | {"sha256": sha256(index).hexdigest(), **ends_of}, tiles
@@ -197,7 +227,12 @@ class Tiles:
         return as_decoded({name: self.manifest[name] for name in ABOUT if name in self.manifest})
 
     def region(
-        self, low: Sequence[float], high: Sequence[float], error: float = 0.0, *, level: int | None = None
+        self,
+        low: Sequence[float],
+        high: Sequence[float],
+        error: float = 0.0,
+        *,
+        level: int | None = None,
     ) -> TriangleMesh:
         """Join the triangles whose bounding boxes meet a box: of the coarsest tiles within `error`, or of a `level`.
 
@@ -209,15 +244,21 @@ class Tiles:
             ends = np.empty(0)
         if ends.shape != (2, 3) or not np.isfinite(ends).all():
             raise ArgumentError("a box has a low and a high corner of three numbers each")
-        if not isinstance(error, (int, float, np.number)) or not isinstance(level, (int, np.integer, NoneType)):
-            raise ArgumentError(f"error must be a number, and level a whole one, not {error!r} and {level!r}")
+        if not isinstance(error, (int, float, np.number)) or not isinstance(
+            level, (int, np.integer, NoneType)
+        ):
+            raise ArgumentError(
+                f"error must be a number, and level a whole one, not {error!r} and {level!r}"
+            )
         # The box is moved to the lattice, and not the vertices to the box: those are exact integers there.
         box = (ends - np.array(self.lattice.origin)) / self.lattice.cell
         tables, triangles, first = [], [], 0
         for shard, tile in self.chosen(error, box, level):
             table, faces = self.decoded(shard, tile)
             corners = table[faces, :3]
-            faces = faces[((corners.max(axis=1) >= box[0]) & (corners.min(axis=1) <= box[1])).all(axis=1)]
+            faces = faces[
+                ((corners.max(axis=1) >= box[0]) & (corners.min(axis=1) <= box[1])).all(axis=1)
+            ]
             tables.append(table)
             triangles.append(faces + first)
             first += len(table)
@@ -227,11 +268,16 @@ class Tiles:
         # Vertices on borders come with each tile. They are equal to the last bit, so equal rows are one vertex.
         different, numbers = np.unique(np.concatenate(tables)[used], axis=0, return_inverse=True)
         joined = numbers.reshape(-1)[rows].reshape(-1, 3).astype(np.int32)
-        return TriangleMesh(self.lattice.positions(different[:, :3]), joined, self.attributes(different), self.about)
+        return TriangleMesh(
+            self.lattice.positions(different[:, :3]), joined, self.attributes(different), self.about
+        )
 
     def attributes(self, table: Table) -> tuple[Attribute, ...]:
         """Return the attributes of vertices, shape (n, 3 and more), as those of a mesh."""
-        return tuple(Attribute(what, values, "vertex", what) for what, values in self.values(table).items())  # type: ignore[arg-type]
+        return tuple(
+            Attribute(what, values, "vertex", what)  # type: ignore[arg-type]
+            for what, values in self.values(table).items()
+        )
 
     def values(self, table: Table) -> dict[str, npt.NDArray[Any]]:
         """Return the attribute values of vertices, shape (n, 3 and more), by name; shape (n, c)."""
@@ -241,7 +287,9 @@ class Tiles:
             column += size
         return tables
 
-    def chosen(self, error: float = 0.0, box: Any = None, level: int | None = None) -> Iterator[tuple[Facts, Tile]]:
+    def chosen(
+        self, error: float = 0.0, box: Any = None, level: int | None = None
+    ) -> Iterator[tuple[Facts, Tile]]:
         """Return the coarsest tiles of at most this error, or those of a level, that meet a box."""
         tiles_by_name = {tile.name: (shard, tile) for shard, tile in self.all(box)}
         names_taken: set[str] = set()
@@ -250,7 +298,11 @@ class Tiles:
         for name in sorted(tiles_by_name, key=lambda name: (len(name), name)):
             tile = tiles_by_name[name][1]
             leaf = name not in inner  # others may have an error of 0, too, as where all is flat
-            fits = tile.error <= error and (leaf or error > 0.0) if level is None else tile.level == level or leaf
+            fits = (
+                tile.error <= error and (leaf or error > 0.0)
+                if level is None
+                else tile.level == level or leaf
+            )
             if name[:-1] in names_taken:
                 names_taken.add(name)
             elif fits:
@@ -273,14 +325,21 @@ class Tiles:
         data = read_range(name, shard["size"] - size, size)
         index = data[: shard["index"]]
         # The digest alone would do; the length and the mark tell people, and other programs, where the index begins.
-        if data[-FOOT:] != len(index).to_bytes(8, "little") + _END or sha256(index).hexdigest() != shard["sha256"]:
-            raise CorruptError(f"{name}: the index at the end of this shard differs from the manifest")
+        if (
+            data[-FOOT:] != len(index).to_bytes(8, "little") + _END
+            or sha256(index).hexdigest() != shard["sha256"]
+        ):
+            raise CorruptError(
+                f"{name}: the index at the end of this shard differs from the manifest"
+            )
         tiles = parse_index(name, index, shard, self.root)
         # Copied, since another thread may add to the dictionary while this one walks over it.
         others = [
             kept_file for file, kept_file in [*self._held.items()] if file != shard["file"]
         ]  # a thread may have been here
-        if twice := {tile.name for tile in tiles} & {tile.name for kept_file in others for tile in kept_file}:
+        if twice := {tile.name for tile in tiles} & {
+            tile.name for kept_file in others for tile in kept_file
+        }:
             raise CorruptError(f"{name}: tile {min(twice)} is in another shard, too")
         self._held[shard["file"]] = tiles
         return tiles
@@ -290,7 +349,9 @@ class Tiles:
         name = place_of(self.path, shard["file"])
         data = read_range(name, tile.offset, tile.size)
         if sha256(data).hexdigest() != tile.sha256:
-            raise CorruptError(f"{name}: tile {tile.name} differs from the index", offset=tile.offset)
+            raise CorruptError(
+                f"{name}: tile {tile.name} differs from the index", offset=tile.offset
+            )
         return data
 
     def mesh(self, shard: Facts, tile: Tile) -> TriangleMesh:
@@ -307,13 +368,17 @@ class Tiles:
     def decoded(self, shard: Facts, tile: Tile) -> tuple[Table, Faces]:
         """The vertices on the grid, shape (n, 3 and more), with what else they have; and faces, (m, 3)."""
         mesh = self.mesh(shard, tile)
-        mesh = split_by_attributes(replace(mesh, attributes=tuple(a for a in mesh.attributes if a.name in self.kinds)))
+        mesh = split_by_attributes(
+            replace(mesh, attributes=tuple(a for a in mesh.attributes if a.name in self.kinds))
+        )
         columns = [self.lattice.cells(mesh.positions)]
         carried = {attribute.name: attribute.values for attribute in mesh.attributes}
         for what, (kind, size) in self.kinds.items():
             values = carried.get(what)
             if values is None or values.shape[1] != size or values.dtype != np.dtype(kind):
-                raise CorruptError(f"{self.path}, tile {tile.name} has no {what} as the manifest says")
+                raise CorruptError(
+                    f"{self.path}, tile {tile.name} has no {what} as the manifest says"
+                )
             columns.append(values)
         return np.column_stack(columns).astype(np.float64), mesh.faces
 

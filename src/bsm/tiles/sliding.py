@@ -14,7 +14,9 @@ _SWEEPS, _PART = 2, 0.7  # of the way to the middle, each time
 _BENT = 20.0  # from one part in so many on that the normals around a vertex cancel, it stays
 
 
-def slid(points: Positions, faces: npt.NDArray[Any], fixed: npt.NDArray[np.bool_] | None = None) -> Positions:
+def slid(
+    points: Positions, faces: npt.NDArray[Any], fixed: npt.NDArray[np.bool_] | None = None
+) -> Positions:
     """Return points that have moved; those on creases and borders stay, and those that are `held`."""
     # Copies of a vertex, as in STL, must move together, or the surface tears.
     numbers = row_numbers(points)
@@ -29,11 +31,15 @@ def slid(points: Positions, faces: npt.NDArray[Any], fixed: npt.NDArray[np.bool_
 
     # Around an inner vertex, each neighbor follows it in one face, and precedes it in another.
     # The sum of neighbors that follow less those that precede is zero for closed fans, and costs no search for borders.
-    turns, count = sums(np.column_stack([following - np.roll(faces, 1, axis=1).ravel(), np.ones(len(corners))])).T
+    turns, count = sums(
+        np.column_stack([following - np.roll(faces, 1, axis=1).ravel(), np.ones(len(corners))])
+    ).T
     free = turns == 0.0 if fixed is None else (turns == 0.0) & ~fixed[first]
     for _ in range(_SWEEPS):
         _, areas, normals = face_geometry(moved, faces)
-        *across, together = sums(np.repeat(np.column_stack([areas[:, None] * normals, areas]), 3, axis=0)).T
+        *across, together = sums(
+            np.repeat(np.column_stack([areas[:, None] * normals, areas]), 3, axis=0)
+        ).T
         normals = np.column_stack(across) / np.maximum(together, np.finfo(float).tiny)[:, None]
         flat = np.linalg.norm(normals, axis=1, keepdims=True)  # 1: all faces around have one normal
         normals /= np.maximum(flat, np.finfo(float).tiny)

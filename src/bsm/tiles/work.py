@@ -55,7 +55,9 @@ def held(folder: Path, take_over: bool) -> Iterator[bool]:
             file.close()  # its owner has just removed it
         except OSError as error:
             with file:
-                raise _held_by(path, "works in this folder; wait until it has ended, or name another one") from error
+                raise _held_by(
+                    path, "works in this folder; wait until it has ended, or name another one"
+                ) from error
     with file:
         # A process removes its file at the end. One with contents and without a lock was left by a process that died.
         if (has_work := file.seek(0, os.SEEK_END) > 0) and not take_over:
@@ -74,7 +76,9 @@ def _held_by(path: Path, message: str) -> OSError:
     with suppress(OSError):
         words = path.read_text(errors="replace").split()[:2]
         if len(words) == 2 and words[0].isdigit():
-            return OSError(errno.EBUSY, f"process {words[0]} on {words[1]!r:.80} {message}", str(path.parent))
+            return OSError(
+                errno.EBUSY, f"process {words[0]} on {words[1]!r:.80} {message}", str(path.parent)
+            )
     return OSError(errno.EBUSY, f"another process {message}", str(path.parent))
 
 
@@ -83,7 +87,9 @@ def is_own(work: Path) -> bool:
     with suppress(OSError):
         note = (work / NOTE).read_text(errors="replace") if (work / NOTE).is_file() else None
         # A note with nothing in it comes from a run that was killed between opening and writing it.
-        return note is not None and (note.startswith(_BEGIN) or (not note and {*os.listdir(work)} <= {LOCK, NOTE}))
+        return note is not None and (
+            note.startswith(_BEGIN) or (not note and {*os.listdir(work)} <= {LOCK, NOTE})
+        )
     return False
 
 
@@ -91,9 +97,13 @@ def refuse_others(work: Path) -> None:
     """Raise `OptionError` for a folder with files, but without the note of a run, and for links in it."""
     # A link could lead the run, which writes and removes files by fixed names, to files elsewhere.
     if work.is_dir() and any(path.is_symlink() for path in work.iterdir()):
-        raise OptionError(f"{work} holds symbolic links; name an empty folder, or a new one, with --work")
+        raise OptionError(
+            f"{work} holds symbolic links; name an empty folder, or a new one, with --work"
+        )
     if work.is_dir() and {*os.listdir(work)} - {LOCK} and not is_own(work):
-        raise OptionError(f"{work} holds other files; name an empty folder, or a new one, with --work")
+        raise OptionError(
+            f"{work} holds other files; name an empty folder, or a new one, with --work"
+        )
 
 
 def remove_made(work: Path) -> None:

@@ -20,7 +20,13 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from bsm.account.comparison import compare_meshes, errors_of_frames, in_order_of, pair, paired_frames
+from bsm.account.comparison import (
+    compare_meshes,
+    errors_of_frames,
+    in_order_of,
+    pair,
+    paired_frames,
+)
 from bsm.account.images import changed, compare_images
 from bsm.api import decode_sequence, encode_sequence
 from bsm.bitstream.container.wire import MAGIC
@@ -95,7 +101,9 @@ def carried(source: TriangleMesh | Frames) -> bytes:
         return _carrier(source)[0]
     # A sequence cannot be exact in the format, so its step is one that no picture shows.
     frames = np.array(list(source.frames))
-    return encode_sequence(frames, source.faces, frame_rate=source.frame_rate, metadata=source.metadata, step=_FINE)
+    return encode_sequence(
+        frames, source.faces, frame_rate=source.frame_rate, metadata=source.metadata, step=_FINE
+    )
 
 
 def _carrier(mesh: TriangleMesh) -> tuple[bytes, Order]:
@@ -133,14 +141,22 @@ def compared(
         )
         frames = np.array([frame for frame, _ in moments])
         decoder = SequenceStream(Input(stream).chunks(), limits=limits)
-        found, off = _over_time(name, decoder, frames, original.faces, [fields for _, fields in moments])
+        found, off = _over_time(
+            name, decoder, frames, original.faces, [fields for _, fields in moments]
+        )
         plain, promised = 12 * frames.size // 3, _promised(PROMISES, preset)
         original = replace(original, frames=iter(frames))
     else:
-        found, off, rivals = _at_rest(original, decode_whole(Input(stream).chunks(), limits), len(stream))
+        found, off, rivals = _at_rest(
+            original, decode_whole(Input(stream).chunks(), limits), len(stream)
+        )
         plain = 12 * (len(original.positions) + len(original.faces))
-        promised = _promised({known: options.contract for known, options in PRESETS.items()}, preset)
-    first = Shown("Original", "" if size else "as plain arrays", size or plain, before or carried(original))
+        promised = _promised(
+            {known: options.contract for known, options in PRESETS.items()}, preset
+        )
+    first = Shown(
+        "Original", "" if size else "as plain arrays", size or plain, before or carried(original)
+    )
     second = Shown("BSM", preset or "", len(stream), stream, off)
     return Content(name, (first, second, *rivals), 1, {"preset": preset, **found, **promised})
 
@@ -155,7 +171,10 @@ def _at_rest(
     # Vertices in no face have no error, and NaN says so.
     off = np.full(len(decoded.positions), np.nan, np.float32)
     diagonal, alike = source.diagonal or 1.0, True
-    facts: dict[str, Any] = {"before": [len(original.positions), len(original.faces)], "diagonal": diagonal}
+    facts: dict[str, Any] = {
+        "before": [len(original.positions), len(original.faces)],
+        "diagonal": diagonal,
+    }
     try:
         paired = pair(whole, used)
     except MeshError:
@@ -170,9 +189,12 @@ def _at_rest(
         off[kept] = np.linalg.norm(in_order_of(used, source) - used.positions, axis=1)
         errors = compare_meshes(whole, used, paired)
         facts |= {"angle": errors.angle_deg, "farthest": errors.max_error_relative}
-        facts["attributes"] = {name: found and asdict(found) for name, found in errors.attributes.items()}
+        facts["attributes"] = {
+            name: found and asdict(found) for name, found in errors.attributes.items()
+        }
     rivals: tuple[Shown, ...] = ()
-    with suppress(DependencyError, MeshError):  # faces without area are invisible; Draco refuses some meshes
+    # Faces without area are invisible; Draco refuses some meshes.
+    with suppress(DependencyError, MeshError):
         facts["look"] = look(source, used).distance
         # Draco's file would need the same attributes at the same quality, or the sizes would not compare.
         if alike and not original.attributes:
@@ -189,7 +211,11 @@ def _promised(contracts: Mapping[str, Contract | None], preset: str | None) -> d
 
 
 def _over_time(
-    name: str, decoder: SequenceStream, before: Positions, faces: Faces, fields: Sequence[tuple[Attribute, ...]]
+    name: str,
+    decoder: SequenceStream,
+    before: Positions,
+    faces: Faces,
+    fields: Sequence[tuple[Attribute, ...]],
 ) -> tuple[dict[str, Any], npt.NDArray[np.float32] | None]:
     """Return the largest errors of each frame and field, the look of the worst of some, and errors of vertices."""
     moments = [(frame, decoder.attributes) for _, frame in decoder.frames()]
@@ -199,7 +225,10 @@ def _over_time(
     off = np.full(decoded.shape[:2], np.nan, np.float32)
     facts: dict[str, Any] = {"diagonal": float(np.linalg.norm(extent_of(before[0]))) or 1.0}
     # The encoder measures the look of the same frames. To draw all of them would take longer than encoding.
-    kept, some = np.unique(decoder.faces), np.linspace(0, len(before) - 1, min(KNOTS, len(before))).round().astype(int)
+    kept, some = (
+        np.unique(decoder.faces),
+        np.linspace(0, len(before) - 1, min(KNOTS, len(before))).round().astype(int),
+    )
     try:
         paired = paired_frames(before, faces, decoded, decoder.faces)
         first, second, shared = paired.before, paired.after, paired.faces
@@ -218,20 +247,28 @@ def _over_time(
         used = np.unique(faces)
         # Distances of one surface from the other are not symmetric: a part that is missing shows from the other side
         # only.
-        back = [farthest_from_surface(t[used], d, decoder.faces) for d, t in zip(decoded, before, strict=True)]
+        back = [
+            farthest_from_surface(t[used], d, decoder.faces)
+            for d, t in zip(decoded, before, strict=True)
+        ]
         errors = np.maximum(np.nanmax(off, axis=1), back) / facts["diagonal"]
         facts["apart"], foreseen = float(np.nanmean(off)) / facts["diagonal"], errors.tolist()
     looks = []  # of the frames that an encoder draws, too
     for frame in sorted({*some.tolist(), int(np.argmax(foreseen))}):
         with suppress(MeshError):  # nothing of it can be seen
-            then, now = TriangleMesh(before[frame], faces), TriangleMesh(decoded[frame], decoder.faces)
+            then, now = (
+                TriangleMesh(before[frame], faces),
+                TriangleMesh(decoded[frame], decoder.faces),
+            )
             looks.append(look(then, now).moving)
     facts |= {"look": max(looks), "drawn": len(looks)} if looks else {}
     facts |= {"farthest": float(errors.max()), "errors": errors.tolist()}
     return facts, off if off.size <= _MOST_COLORS and np.isfinite(off).any() else None
 
 
-def _rival(source: TriangleMesh, size: int, distance: float) -> tuple[tuple[Shown], dict[str, int] | None]:
+def _rival(
+    source: TriangleMesh, size: int, distance: float
+) -> tuple[tuple[Shown], dict[str, int] | None]:
     """Return Draco's finest file of at most `size` bytes, and the size of its smallest file of at most this look."""
     from bsm.evaluation.curve import decode_draco, encode_draco, positions_in_order
 
@@ -241,11 +278,17 @@ def _rival(source: TriangleMesh, size: int, distance: float) -> tuple[tuple[Show
 
     @cache
     def mesh(bits: int) -> TriangleMesh:
-        return TriangleMesh(positions_in_order(source, decode_draco(file(bits)), bits), source.faces)
+        return TriangleMesh(
+            positions_in_order(source, decode_draco(file(bits)), bits), source.faces
+        )
 
     # Sizes grow with the bits, so a bisection over 21 settings encodes four or five times instead of all.
-    small = DRACO_BITS[max(bisect_left(DRACO_BITS, True, key=lambda bits: len(file(bits)) > size) - 1, 0)]
-    good = bisect_left(DRACO_BITS, True, key=lambda bits: look(source, mesh(bits)).distance <= distance)
+    small = DRACO_BITS[
+        max(bisect_left(DRACO_BITS, True, key=lambda bits: len(file(bits)) > size) - 1, 0)
+    ]
+    good = bisect_left(
+        DRACO_BITS, True, key=lambda bits: look(source, mesh(bits)).distance <= distance
+    )
     # The page has no decoder of Draco. Its result travels as a stream of ours that changes nothing.
     stream, order = _carrier(mesh(small))  # joins vertices that Draco merged
     off = np.linalg.norm(mesh(small).positions - source.positions, axis=1)[order]
@@ -257,7 +300,11 @@ def _rival(source: TriangleMesh, size: int, distance: float) -> tuple[tuple[Show
 
 
 def made(
-    name: str, size: int | None, given: MeshFile | Frames, preset: str, report: Callable[[str, float], None]
+    name: str,
+    size: int | None,
+    given: MeshFile | Frames,
+    preset: str,
+    report: Callable[[str, float], None],
 ) -> Content:
     """Encode a file and compare it; call `report` with each stage and the fraction done."""
     report("encoding", 0.0)
@@ -279,7 +326,9 @@ def made(
     seconds = time.perf_counter() - begin
     report("comparing", _ENCODING)
     content = compared(name, stream, source, size=size, preset=preset)
-    return replace(content, facts={**content.facts, "seconds": seconds, "notes": notes, "less": less})
+    return replace(
+        content, facts={**content.facts, "seconds": seconds, "notes": notes, "less": less}
+    )
 
 
 def encoded_scene(name: str, path: str, limits: Limits = DEFAULT_LIMITS) -> Content | None:
@@ -350,35 +399,62 @@ def given_among(paths: Sequence[str], folder: str) -> list[Given]:
     limits = Limits.service()
     caches = [path for path in paths if PurePath(path).suffix[1:].lower() in CACHES]
     # A cache of positions has no faces, so the mesh beside it is its topology, and not a second thing to show.
-    shown = caches or [path for path in paths if path.lower().endswith(".bsm") or is_mesh_name(path)]
+    shown = caches or [
+        path for path in paths if path.lower().endswith(".bsm") or is_mesh_name(path)
+    ]
     if len(shown) > 2:
         frames = replace(given_at(folder, limits), name=PurePath(common_name(shown)).name)
         return [replace(frames, size=sum(size_of(path) or 0 for path in shown), used=tuple(shown))]
     meshes = [path for path in paths if is_mesh_name(path)] if caches else []
-    return [given_at(path, limits, Wanted(mesh=meshes[0]) if meshes else _moving(path)) for path in shown or paths[:1]]
+    return [
+        given_at(path, limits, Wanted(mesh=meshes[0]) if meshes else _moving(path))
+        for path in shown or paths[:1]
+    ]
 
 
 def _moving(path: str) -> Wanted | None:
     """What to ask of a glTF file that has animations: the first one."""
     is_gltf = PurePath(path).suffix[1:].lower() in GLTF
-    return Wanted() if is_gltf and by_name("bsm.gltf.document", "read_document")(path).items("animations") else None
+    return (
+        Wanted()
+        if is_gltf and by_name("bsm.gltf.document", "read_document")(path).items("animations")
+        else None
+    )
 
 
 def against(before: Given, given: Given, limits: Limits) -> Content:
     """Compare a mesh, sequence or stream with another one, as they are."""
     (carrier, original), (stream, shown) = (each.decoded(limits) for each in (before, given))
     name = PurePath(given.name).name
-    content = compared(name, stream or carried(shown), original, size=before.size, limits=limits, before=carrier)
+    content = compared(
+        name, stream or carried(shown), original, size=before.size, limits=limits, before=carrier
+    )
     first, second, *rivals = content.layers
     title = "BSM" if stream else PurePath(name).suffix[1:].upper() or "Other"
     second = replace(second, title=title, detail=name, size=given.size or 0)
-    layers = (replace(first, detail=PurePath(before.name).name), second, *(rivals if stream else ()))
-    read = [(PurePath(each.name).name, each.source) for each in (before, given) if not isinstance(each.source, bytes)]
-    notes = [f"{which}: {note}" for which, source in read for note in without_compression_notes(source.notes)]
+    layers = (
+        replace(first, detail=PurePath(before.name).name),
+        second,
+        *(rivals if stream else ()),
+    )
+    read = [
+        (PurePath(each.name).name, each.source)
+        for each in (before, given)
+        if not isinstance(each.source, bytes)
+    ]
+    notes = [
+        f"{which}: {note}"
+        for which, source in read
+        for note in without_compression_notes(source.notes)
+    ]
     if isinstance(original, TriangleMesh) and isinstance(shown, TriangleMesh):
         notes += changed(compare_images(original.metadata, shown.metadata))
     said = {"notes": notes, "less": any(_lost_data(source) for _, source in read)}
-    return replace(content, layers=layers, facts={**content.facts, **said} | ({} if stream else {"draco": None}))
+    return replace(
+        content,
+        layers=layers,
+        facts={**content.facts, **said} | ({} if stream else {"draco": None}),
+    )
 
 
 def _work(pipe: Connection, paths: Sequence[str], folder: str, preset: str) -> None:
@@ -404,7 +480,9 @@ def _work(pipe: Connection, paths: Sequence[str], folder: str, preset: str) -> N
         used = {os.path.realpath(path) for each in given for path in each.used}
         said = {"missing": [name for each in given for name in each.missing]}
         for what, is_used in (("used", True), ("unused", False)):
-            said[what] = [PurePath(path).name for path in paths if (os.path.realpath(path) in used) == is_used]
+            said[what] = [
+                PurePath(path).name for path in paths if (os.path.realpath(path) in used) == is_used
+            ]
         pipe.send(replace(content, facts={**content.facts, **said}))
     except (BsmError, MemoryError) as error:
         # The temporary folder means nothing to the user, who sent a file by its name.
@@ -416,13 +494,17 @@ def _put(folder: str, name: str, data: bytes) -> str:
     parts = PurePosixPath(name.replace("\\", "/").replace("\0", "")).parts
     # The name comes from a page. Parts like .. would lead out of the folder, and long names exceed what file systems
     # allow.
-    path = Path(folder, *[part[-_LONGEST:] for part in parts if part not in ("/", "..")] or ["mesh"])
+    path = Path(
+        folder, *[part[-_LONGEST:] for part in parts if part not in ("/", "..")] or ["mesh"]
+    )
     path.parent.mkdir(parents=True, exist_ok=True)
     path.write_bytes(data)
     return str(path)
 
 
-def uploaded(files: Sequence[tuple[str, bytes]], preset: str) -> Generator[dict[str, Any] | Content]:
+def uploaded(
+    files: Sequence[tuple[str, bytes]], preset: str
+) -> Generator[dict[str, Any] | Content]:
     """Encode files dropped on the page, or compare two, in a process that ends with this generator; yield reports."""
     # Not forked: the server has threads, and a fork copies their locks as they are, perhaps held for ever.
     context = multiprocessing.get_context("spawn")

@@ -15,7 +15,12 @@ from bsm.viewer.page import check_crease_angle, embedded, listed, script
 
 
 def show(
-    source: Any, *, original: Any = None, height: int = 480, crease_angle: float | None = None, **keywords: Any
+    source: Any,
+    *,
+    original: Any = None,
+    height: int = 480,
+    crease_angle: float | None = None,
+    **keywords: Any,
 ) -> Any:
     """Show a mesh, a sequence or a stream in a notebook, block by block as it is decoded.
 
@@ -60,7 +65,9 @@ def show(
         content = traitlets.Dict().tag(sync=True)
         height = traitlets.Int().tag(sync=True)
 
-    return StreamWidget(content=listed(_content(source, original, keywords), "", embedded), height=height)
+    return StreamWidget(
+        content=listed(_content(source, original, keywords), "", embedded), height=height
+    )
 
 
 def _content(source: Any, original: Any, keywords: dict[str, Any]) -> Content:
@@ -70,7 +77,9 @@ def _content(source: Any, original: Any, keywords: dict[str, Any]) -> Content:
     preset = None
     if given and is_stream(given):
         if keywords:
-            raise OptionError(f"this is encoded already: {', '.join(keywords)} cannot be chosen any more")
+            raise OptionError(
+                f"this is encoded already: {', '.join(keywords)} cannot be chosen any more"
+            )
         data = given.read_all()
     elif isinstance(source, tuple) and len(source) == 2 and np.ndim(source[0]) == 3:
         data = encode_sequence(*source, **keywords)

@@ -51,7 +51,8 @@ class Arrival:
         # Wide, since the stream comes from a program that the user has started. The page has limits of its own.
         self._skimmer: Skimmer | None = Skimmer(Limits.wide())
         # A page that is opened late need not get hours of frames: it enters at the last GOP that begins anew.
-        self._head: list[slice] = []  # of the present mesh: its header, all metadata so far, what is before its GOPs
+        # Of the present mesh: its header, all metadata so far, what is before its GOPs.
+        self._head: list[slice] = []
         self._metadata: list[slice] = []
         self._entry: int | None = None
 
@@ -173,7 +174,8 @@ class Tiled:
 
 LOOPBACK = "127.0.0.1"
 UPLOAD = "/upload"
-_UPLOAD_TIME, _SLOWEST = 10.0, 1e6  # seconds that any upload has, and bytes per second that give it more
+# Seconds that any upload has, and bytes per second that give it more.
+_UPLOAD_TIME, _SLOWEST = 10.0, 1e6
 # The body is held in memory, and then written to files for the process that encodes it.
 MOST_BYTES = 64 << 20
 
@@ -202,7 +204,11 @@ def _built(name: str) -> bytes:
     viewer = files("bsm.viewer")
     # An editable install has links in the package or none, by how the checkout was made; a wheel has the files
     # themselves.
-    for place in (viewer / name, viewer / "built" / name, Path(__file__).parents[3] / "web" / "built" / name):
+    for place in (
+        viewer / name,
+        viewer / "built" / name,
+        Path(__file__).parents[3] / "web" / "built" / name,
+    ):
         if place.is_file():
             return place.read_bytes()
     raise DependencyError(f"a part of the viewer is missing, install the package again: {name}")
@@ -217,12 +223,16 @@ def embedded(_: str, data: bytes) -> dict[str, str]:
 def check_crease_angle(angle: float | None) -> None:
     """Raise an error unless pages can draw with an angle."""
     if angle is not None and not 0 <= angle <= _LARGEST_ANGLE:
-        raise OptionError(f"the crease angle must be from 0 (flat) to {_LARGEST_ANGLE} degrees (smooth), not {angle}")
+        raise OptionError(
+            f"the crease angle must be from 0 (flat) to {_LARGEST_ANGLE} degrees (smooth), not {angle}"
+        )
 
 
 def script(place: Place, *more: str, crease_angle: float | None = None) -> str:
     """Return the module of the page with the addresses of the full kernels, and of `more` smaller ones or scripts."""
-    kernels = {PurePath(name).stem: place(f"/{name}", _built(name)) for name in ("kernels.wasm", *more)}
+    kernels = {
+        PurePath(name).stem: place(f"/{name}", _built(name)) for name in ("kernels.wasm", *more)
+    }
     told: dict[str, Any] = {**kernels, "presets": _PRESETS}
     # The page has the rule. Without an angle, it decides by the edges of each mesh.
     if crease_angle is not None:
@@ -236,9 +246,13 @@ def page_with(contents: Sequence[Content], crease_angle: float | None = None) ->
     return _page(entries, script(embedded, crease_angle=crease_angle))
 
 
-def site_with(contents: Sequence[Content | Tiled], crease_angle: float | None = None) -> dict[str, bytes | Ranged]:
+def site_with(
+    contents: Sequence[Content | Tiled], crease_angle: float | None = None
+) -> dict[str, bytes | Ranged]:
     """Return the files of a page that encodes by itself, by their names; any web server can send them."""
-    built: dict[str, bytes | Ranged] = {name: _built(name) for name in ("encode.wasm", "encode-moving.wasm")}
+    built: dict[str, bytes | Ranged] = {
+        name: _built(name) for name in ("encode.wasm", "encode-moving.wasm")
+    }
 
     def place(path: str, data: bytes) -> dict[str, str]:
         name = path.removeprefix("/").replace("/", "-")
@@ -267,7 +281,12 @@ def listed(content: Content, path: str, place: Place) -> dict[str, Any]:
         if layer.off is not None:
             entry["off"] = place(f"{path}/{number}/off", layer.off.astype("<f4").tobytes())
         layers.append(entry)
-    return {"name": content.name, "main": content.main, "facts": dict(content.facts), "layers": layers}
+    return {
+        "name": content.name,
+        "main": content.main,
+        "facts": dict(content.facts),
+        "layers": layers,
+    }
 
 
 def _page(entries: list[dict[str, Any]], script: str) -> str:
@@ -275,7 +294,12 @@ def _page(entries: list[dict[str, Any]], script: str) -> str:
     # A stream or a name could spell the end tag of the script.
     inside = json.dumps(entries).replace("<", "\\u003c")
     # One replacement each: what was inserted might hold the words of the slot.
-    return _built("page.html").decode().replace(f"{_SLOT}[]", _SLOT + inside, 1).replace(_SCRIPT, script, 1)
+    return (
+        _built("page.html")
+        .decode()
+        .replace(f"{_SLOT}[]", _SLOT + inside, 1)
+        .replace(_SCRIPT, script, 1)
+    )
 
 
 @contextmanager
@@ -285,7 +309,9 @@ def in_browser(address: str) -> Iterator[None]:
         page = Path(folder, "view.html")
         page.touch(0o600)
         # The address holds the token, and a command line can be read by every user of the machine. The file cannot.
-        page.write_text(f'<meta http-equiv="refresh" content="0; url={address}"><a href="{address}">bsm view</a>')
+        page.write_text(
+            f'<meta http-equiv="refresh" content="0; url={address}"><a href="{address}">bsm view</a>'
+        )
         webbrowser.open(page.as_uri())
         yield
 
@@ -297,27 +323,37 @@ class PageServer(ThreadingHTTPServer):
     daemon_threads = True
 
     def __init__(
-        self, contents: Sequence[Content | Arrival | Tiled], port: int = 0, crease_angle: float | None = None
+        self,
+        contents: Sequence[Content | Arrival | Tiled],
+        port: int = 0,
+        crease_angle: float | None = None,
     ) -> None:
         # Never another address: the server reads files that the user named, and has no accounts.
         super().__init__((LOOPBACK, port), _Handler)
         self.content: dict[str, tuple[str, bytes | Arrival | Ranged]] = {}
         self.encoding = Lock()
-        self.token = secrets.token_urlsafe(16)  # another user of this machine may reach the port, and does not know it
+        # Another user of this machine may reach the port, and does not know it.
+        self.token = secrets.token_urlsafe(16)
         entries = []
         for number, content in enumerate(contents):
             path = f"/{number}"
             if isinstance(content, Arrival):
                 layer = {"title": "BSM", "detail": "", "size": 0} | self.place(path, content)
-                entries.append({"name": content.name, "main": 0, "facts": {}, "live": True, "layers": [layer]})
+                entries.append(
+                    {"name": content.name, "main": 0, "facts": {}, "live": True, "layers": [layer]}
+                )
             elif isinstance(content, Tiled):
-                self.content |= {f"{path}/{name}": (_BYTES, data) for name, data in content.files.items()}
+                self.content |= {
+                    f"{path}/{name}": (_BYTES, data) for name, data in content.files.items()
+                }
                 entries.append(content.listed(number))
             else:
                 entries.append(listed(content, path, self.place))
         module = script(self.place, "grid.wasm", crease_angle=crease_angle)
         self.content["/"] = ("text/html; charset=utf-8", _page(entries, module).encode())
-        self.policy = _POLICY.format(base64.b64encode(hashlib.sha256(module.encode()).digest()).decode())
+        self.policy = _POLICY.format(
+            base64.b64encode(hashlib.sha256(module.encode()).digest()).decode()
+        )
 
     def place(self, path: str, data: bytes | Arrival) -> dict[str, str]:
         """Have the page fetch these bytes, at an address relative to its own."""
@@ -356,7 +392,9 @@ class _Handler(BaseHTTPRequestHandler):
         knows = secrets.compare_digest(token.encode(), self.server.token.encode())
         if knows and self.headers.get("Host") == self.server.host:
             return True
-        self.send_error(HTTPStatus.FORBIDDEN, explain="Open the whole address that bsm view printed.")
+        self.send_error(
+            HTTPStatus.FORBIDDEN, explain="Open the whole address that bsm view printed."
+        )
         return False
 
     def do_GET(self) -> None:
@@ -375,7 +413,10 @@ class _Handler(BaseHTTPRequestHandler):
                     return
                 try:
                     place = place_of(data.folder, data.name)
-                    data, status = read_range(place, begin, end + 1 - begin), HTTPStatus.PARTIAL_CONTENT
+                    data, status = (
+                        read_range(place, begin, end + 1 - begin),
+                        HTTPStatus.PARTIAL_CONTENT,
+                    )
                 except (BsmError, OSError) as error:
                     self.send_error(HTTPStatus.INTERNAL_SERVER_ERROR, worded(error))
                     return
@@ -385,7 +426,10 @@ class _Handler(BaseHTTPRequestHandler):
         """Encode the mesh of an upload, and say line by line in JSON how far that is."""
         url = urlsplit(self.path)
         asked = parse_qs(url.query)
-        names, sizes = asked.get("name", ["mesh"]), asked.get("size", [self.headers.get("Content-Length", "")])
+        names, sizes = (
+            asked.get("name", ["mesh"]),
+            asked.get("size", [self.headers.get("Content-Length", "")]),
+        )
         length = self.headers.get("Content-Length", "")
         # Pages of others may send here, too, but not in our name.
         if self.headers.get("Origin") != f"http://{self.server.host}":
@@ -393,7 +437,9 @@ class _Handler(BaseHTTPRequestHandler):
         elif url.path != UPLOAD or asked.get("preset", [""])[0] not in _PRESETS:
             self.send_error(HTTPStatus.NOT_FOUND)
         # int() takes signs, spaces, underscores and digits of other scripts, which no header has.
-        elif not all(map(_LENGTH.fullmatch, (length, *sizes))) or sum(map(int, sizes)) != int(length):
+        elif not all(map(_LENGTH.fullmatch, (length, *sizes))) or sum(map(int, sizes)) != int(
+            length
+        ):
             self.send_error(HTTPStatus.LENGTH_REQUIRED)
         elif int(length) > MOST_BYTES:
             self.send_error(HTTPStatus.REQUEST_ENTITY_TOO_LARGE, f"At most {MOST_BYTES >> 20} MiB")
@@ -401,12 +447,15 @@ class _Handler(BaseHTTPRequestHandler):
             self.close_connection = True  # the page is gone, or too slow
         # One upload at a time: encoding uses all cores and much memory, and a page that is reloaded often must not pile
         # it up.
-        elif not self.server.encoding.acquire(timeout=10 * _PATIENCE):  # one that was cancelled ends soon
+        # One that was cancelled ends soon.
+        elif not self.server.encoding.acquire(timeout=10 * _PATIENCE):
             self.send_error(HTTPStatus.SERVICE_UNAVAILABLE, "One mesh at a time")
         else:
             try:
                 body = io.BytesIO(data)
-                files = [(name, body.read(int(size))) for name, size in zip(names, sizes, strict=False)]
+                files = [
+                    (name, body.read(int(size))) for name, size in zip(names, sizes, strict=False)
+                ]
                 self._answer(self._reported(files, asked["preset"][0]), "text/plain")
             finally:
                 self.server.encoding.release()
@@ -428,13 +477,23 @@ class _Handler(BaseHTTPRequestHandler):
         """Lines of JSON: stage and share, at last an entry or an error."""
         with closing(uploaded(files, preset)) as reports:
             for report in reports:
-                line = {"entry": self.server.dropped(report)} if isinstance(report, Content) else report
+                line = (
+                    {"entry": self.server.dropped(report)}
+                    if isinstance(report, Content)
+                    else report
+                )
                 yield json.dumps(line).encode() + b"\n"
 
-    def _answer(self, data: bytes | Arrival | Iterator[bytes], kind: str, status: HTTPStatus = HTTPStatus.OK) -> None:
+    def _answer(
+        self, data: bytes | Arrival | Iterator[bytes], kind: str, status: HTTPStatus = HTTPStatus.OK
+    ) -> None:
         """Send bytes, or chunks of them until the page is gone."""
         self.send_response(status)
-        if isinstance(data, bytes) and kind != _BYTES and _GZIP.search(self.headers.get("Accept-Encoding", "")):
+        if (
+            isinstance(data, bytes)
+            and kind != _BYTES
+            and _GZIP.search(self.headers.get("Accept-Encoding", ""))
+        ):
             data = _gzipped(data)
             self.send_header("Content-Encoding", "gzip")
         self.send_header("Content-Type", kind)
@@ -452,7 +511,9 @@ class _Handler(BaseHTTPRequestHandler):
                 # The page has gone; it says nothing more while it is there.
                 # Sending to a page that is gone fails only after some time. Until then an upload would be encoded for
                 # nobody.
-                quiet = (kind != _BYTES or not piece) and select.select([self.connection], [], [], 0)[0]
+                quiet = (kind != _BYTES or not piece) and select.select(
+                    [self.connection], [], [], 0
+                )[0]
                 if quiet and not self.connection.recv(1, socket.MSG_PEEK):
                     return
                 self.wfile.write(piece)

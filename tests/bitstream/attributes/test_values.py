@@ -26,19 +26,28 @@ def carried(normals, bits):
     """The levels of normals, and the decoded ones."""
     faces = np.arange(3 * len(normals), dtype=np.int32).reshape(-1, 3)
     way = WAYS.index("bits")
-    return place_of(faces).carry(True, "normals", np.asarray(normals), 7, FACE, NORMAL, None, way, bits)[2:4]
+    return place_of(faces).carry(
+        True, "normals", np.asarray(normals), 7, FACE, NORMAL, None, way, bits
+    )[2:4]
 
 
-@given(st.lists(st.tuples(*[st.floats(-1e300, 1e300)] * 3), min_size=1, max_size=40), st.sampled_from([2, 8, 16]))
+@given(
+    st.lists(st.tuples(*[st.floats(-1e300, 1e300)] * 3), min_size=1, max_size=40),
+    st.sampled_from([2, 8, 16]),
+)
 def test_levels_of_normals(normals, bits):
-    vectors = np.array([normal for normal in normals if np.abs(normal).max() > 1e-290] or [(0.0, 0.0, 1.0)])
+    vectors = np.array(
+        [normal for normal in normals if np.abs(normal).max() > 1e-290] or [(0.0, 0.0, 1.0)]
+    )
     size = 2 ** (bits - 1) - 1
     unit = vectors / np.abs(vectors).max(axis=1, keepdims=True)
     unit /= np.linalg.norm(unit, axis=1, keepdims=True)
     levels, decoded = carried(vectors, bits)
     assert (levels >= 0).all() and (levels <= 2 * size).all()
     points = unfolded(levels.astype(np.int64), size)
-    np.testing.assert_array_equal(decoded, points / np.sqrt(np.square(points).sum(axis=1, keepdims=True)))
+    np.testing.assert_array_equal(
+        decoded, points / np.sqrt(np.square(points).sum(axis=1, keepdims=True))
+    )
     np.testing.assert_array_equal(carried(decoded, bits)[0], levels)
     assert (np.linalg.norm(np.cross(unit, decoded), axis=1) < 2.2 / size).all()
 
@@ -48,7 +57,10 @@ def test_levels_of_normals(normals, bits):
 def test_normals_of_real_meshes_are_small(meshes: Path, name: str, most: float):
     positions, faces = welded(str(meshes / "static" / f"{name}.ply"))
     edge = np.linalg.norm(positions[faces[:, 0]] - positions[faces[:, 1]], axis=1).mean()
-    across = np.cross(positions[faces[:, 1]] - positions[faces[:, 0]], positions[faces[:, 2]] - positions[faces[:, 0]])
+    across = np.cross(
+        positions[faces[:, 1]] - positions[faces[:, 0]],
+        positions[faces[:, 2]] - positions[faces[:, 0]],
+    )
     normals = np.zeros((len(positions), 3))
     for corner in range(3):
         np.add.at(normals, faces[:, corner], across)
@@ -68,7 +80,9 @@ def test_seams_of_an_attribute_before_cost_next_to_nothing():
     indices = random.integers(0, 2, faces.shape, np.int32)
 
     def seams(first, indices):
-        found = place.carry(first, "a", values, 0, CORNER, GENERIC, indices, WAYS.index("exact"), 0.0)
+        found = place.carry(
+            first, "a", values, 0, CORNER, GENERIC, indices, WAYS.index("exact"), 0.0
+        )
         return values_of(Declaration, found[0])["seams_of"], found[1]
 
     whose, alone = seams(True, indices)

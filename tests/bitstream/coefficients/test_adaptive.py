@@ -17,7 +17,12 @@ from tests.blocks import blocks_of, chain_of
 from tests.shapes import patch
 
 MOST = constant("MAX_LEVEL")
-UNITS = st.integers(-5, 5) | st.integers(-3000, 3000) | st.integers(-300 << 8, 300 << 8) | st.sampled_from([MOST << 8])
+UNITS = (
+    st.integers(-5, 5)
+    | st.integers(-3000, 3000)
+    | st.integers(-300 << 8, 300 << 8)
+    | st.sampled_from([MOST << 8])
+)
 ROWS = st.lists(st.tuples(UNITS, UNITS, UNITS), min_size=1, max_size=12)
 UNIT = 256
 """Targets are in 1 / UNIT of a step."""
@@ -61,7 +66,8 @@ def test_a_short_chain_costs_little_more_than_its_entropy() -> None:
     blocks = [np.trunc(random.exponential(1 / np.log1p(1 / 20), (60, 3))) for _ in range(4)]
     payloads, _ = coded([UNIT * block * random.choice([-1, 1], block.shape) for block in blocks])
     p = 1 / 21
-    entropy = (-p * np.log2(p) - (1 - p) * np.log2(1 - p)) / p + (1 - p)  # of a geometric magnitude, and its sign
+    # Of a geometric magnitude, and its sign.
+    entropy = (-p * np.log2(p) - (1 - p) * np.log2(1 - p)) / p + (1 - p)
     assert 8 * sum(len(payload) - 1 for payload in payloads) <= 1.06 * entropy * 4 * 180
 
 

@@ -17,9 +17,14 @@ def test_known_bytes_of_a_body():
 
 
 def test_illegal_steps_cannot_be_written():
-    for step in (0.0, -1.0, float("inf"), float("nan"), 0.1):  # 0.1 is not exact in single precision
+    # 0.1 is not exact in single precision.
+    for step in (0.0, -1.0, float("inf"), float("nan"), 0.1):
         with pytest.raises(OptionError):
-            write_gop_body(GopBody(GopMethod.LEARNT, 1, (GopField(3, step, 0, np.empty(0, np.int32), b"", b""),)))
+            write_gop_body(
+                GopBody(
+                    GopMethod.LEARNT, 1, (GopField(3, step, 0, np.empty(0, np.int32), b"", b""),)
+                )
+            )
     assert MAX_EXPONENT == 400
 
 

@@ -11,7 +11,16 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from bsm import BsmError, CorruptError, LimitError, Limits, MeshError, OptionError, TruncatedError, read_mesh
+from bsm import (
+    BsmError,
+    CorruptError,
+    LimitError,
+    Limits,
+    MeshError,
+    OptionError,
+    TruncatedError,
+    read_mesh,
+)
 from bsm._core import Cut, GivenMesh
 from bsm.bitstream.connectivity.faces import EncodedConnectivity, encode_connectivity
 from tests.bitstream.attributes.test_values import place_of
@@ -78,7 +87,18 @@ def check_round_trip(faces: Faces, vertex_count: int) -> EncodedConnectivity:
         [[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2], [0, 4, 5], [0, 6, 4], [4, 6, 5], [0, 5, 6]],
         [[0, 1, 2], [3, 3, 4], [2, 1, 5], [4, 6, 4]],
     ],
-    ids=["one", "point", "needle", "twice", "pillow", "book", "turned", "bowtie", "kissing", "mixed"],
+    ids=[
+        "one",
+        "point",
+        "needle",
+        "twice",
+        "pillow",
+        "book",
+        "turned",
+        "bowtie",
+        "kissing",
+        "mixed",
+    ],
 )
 def test_closed_forms_round_trip(faces: list[list[int]]) -> None:
     check_round_trip(np.array(faces), 1 + int(np.max(faces)))
@@ -115,13 +135,17 @@ def test_regular_mesh_costs_almost_nothing() -> None:
 def test_many_components_and_long_fans() -> None:
     parts = np.arange(3000).reshape(-1, 3)
     assert 8 * len(check_round_trip(parts, 3000).payload) < 0.2 * 3000
-    wheel = np.stack([np.zeros(5000, int), 1 + np.arange(5000), 1 + (np.arange(5000) + 1) % 5000], -1)
+    wheel = np.stack(
+        [np.zeros(5000, int), 1 + np.arange(5000), 1 + (np.arange(5000) + 1) % 5000], -1
+    )
     assert len(check_round_trip(wheel, 5001).payload) < 40
     book = np.stack([np.zeros(5000, int), np.ones(5000, int), 2 + np.arange(5000)], -1)
     check_round_trip(book, 5002)
 
 
-@pytest.mark.parametrize("sheets", ["same", "same, by pairs", "reversed", "reversed, by pairs", "three"])
+@pytest.mark.parametrize(
+    "sheets", ["same", "same, by pairs", "reversed", "reversed, by pairs", "three"]
+)
 def test_sheets_that_lie_on_each_other_stay_whole(sheets: str) -> None:
     """Cut at each edge of more than two faces, two take 52 to 59 bits a vertex."""
     one = grid_faces(30, 40)
@@ -134,7 +158,8 @@ def test_sheets_that_lie_on_each_other_stay_whole(sheets: str) -> None:
         "three": np.concatenate([one, back, one]),
     }[sheets]
     bits = 8 * len(check_round_trip(faces, 1200).payload) / 1200
-    assert bits < (26 if sheets == "three" else 13)  # the number of a vertex that comes again takes 10.2
+    # The number of a vertex that comes again takes 10.2.
+    assert bits < (26 if sheets == "three" else 13)
 
 
 def test_orders_do_not_depend_on_numbering_beyond_the_start() -> None:
@@ -167,7 +192,11 @@ def _hostile_cases() -> dict[str, tuple[Faces, int]]:
     holes = grid_faces(20, 20)
     holes = holes[rng.random(len(holes)) < 0.8]
     soup = rng.integers(0, 60, (150, 3))
-    return {"torus": (grid_faces(15, 20, (True, True)), 300), "holes": compact(holes), "soup": compact(soup)}
+    return {
+        "torus": (grid_faces(15, 20, (True, True)), 300),
+        "holes": compact(holes),
+        "soup": compact(soup),
+    }
 
 
 def test_a_seam_that_repeats_a_vertex_before_there_is_one_is_harmless() -> None:
@@ -186,7 +215,12 @@ def test_every_truncation_and_wrong_counts_are_noticed(name: str) -> None:
     for size in range(len(payload) - 4):
         with pytest.raises((TruncatedError, CorruptError)):
             decode_connectivity(payload[:size], count, len(faces))
-    for vertices, triangles in [(count + 1, len(faces)), (count, len(faces) + 1), (0, 0), (9 * len(faces), len(faces))]:
+    for vertices, triangles in [
+        (count + 1, len(faces)),
+        (count, len(faces) + 1),
+        (0, 0),
+        (9 * len(faces), len(faces)),
+    ]:
         with pytest.raises(BsmError):
             decode_connectivity(payload, vertices, triangles)
     with pytest.raises(CorruptError, match="left over"):
@@ -229,7 +263,8 @@ def test_random_order_costs_about_its_entropy_and_runs_cost_little() -> None:
 
 
 @pytest.mark.parametrize(
-    ("faces", "places"), [([[0, 1, 3]], [0, 1, 2]), ([[-1, 0, 1]], [0, 1, 2]), ([[0, 1, 2]], [0, 1, 3])]
+    ("faces", "places"),
+    [([[0, 1, 3]], [0, 1, 2]), ([[-1, 0, 1]], [0, 1, 2]), ([[0, 1, 2]], [0, 1, 3])],
 )
 def test_numbers_that_are_not_there_are_refused(faces: list[list[int]], places: list[int]) -> None:
     mesh = GivenMesh(np.array(faces, np.int32), np.array(places, np.int32))
@@ -237,11 +272,20 @@ def test_numbers_that_are_not_there_are_refused(faces: list[list[int]], places: 
         mesh.join(True, True)
 
 
-@pytest.mark.parametrize("call", ["carry", "code", "order", "join carry", "join none", "join order", "join code few"])
+@pytest.mark.parametrize(
+    "call", ["carry", "code", "order", "join carry", "join none", "join order", "join code few"]
+)
 def test_what_needs_joined_and_coded_faces_is_refused_without(call: str) -> None:
     mesh = GivenMesh(np.array([[0, 1, 2]], np.int32), np.arange(3, dtype=np.int32))
-    calls = {"join": lambda: mesh.join(True, True), "code": mesh.code, "none": lambda: mesh.code(np.zeros(0, np.int32))}
-    calls |= {"order": lambda: mesh.order(np.zeros((3, 3))), "few": lambda: mesh.order(np.zeros((2, 3)))}
+    calls = {
+        "join": lambda: mesh.join(True, True),
+        "code": mesh.code,
+        "none": lambda: mesh.code(np.zeros(0, np.int32)),
+    }
+    calls |= {
+        "order": lambda: mesh.order(np.zeros((3, 3))),
+        "few": lambda: mesh.order(np.zeros((2, 3))),
+    }
     calls["carry"] = lambda: mesh.carry(True, "a", np.zeros((3, 1)), 7, 0, 0, None, 0, 0.0)
     *before, last = (calls[name] for name in call.split())
     for possible in before:

@@ -56,7 +56,18 @@ def legal_value(name):
 
 NOT_ALONE = {
     *("vertices", "faces"),
-    *("blocks", "block_size", "coefficients", "refinement", "grid", "lattice", "corner", "light", "sequence", "run"),
+    *(
+        "blocks",
+        "block_size",
+        "coefficients",
+        "refinement",
+        "grid",
+        "lattice",
+        "corner",
+        "light",
+        "sequence",
+        "run",
+    ),
     "paper",
 }
 PAPERS = st.builds(
@@ -73,7 +84,9 @@ PAPERS = st.builds(
 
 
 @given(
-    st.fixed_dictionaries({}, optional={n: legal_value(n) for n in HEADER_FIELDS if n not in NOT_ALONE}),
+    st.fixed_dictionaries(
+        {}, optional={n: legal_value(n) for n in HEADER_FIELDS if n not in NOT_ALONE}
+    ),
     st.just(()) | st.tuples(st.integers(0, 2**31 - 1), st.integers(1, 2**31 - 1)),
     PAPERS,
 )
@@ -99,7 +112,12 @@ def test_a_mesh_that_a_run_has_again_comes_back():
     # 17: [uint16 300, 9], 18: [4, 2]
     assert write_header(again).hex() == "84016402ccbe1192cd012c0912920402"
     assert parse(write_header(again)) == again
-    assert (again.run_number, again.mesh_of, SMALL_HEADER.run_number, SMALL_HEADER.mesh_of) == (4, 2, 0, None)
+    assert (again.run_number, again.mesh_of, SMALL_HEADER.run_number, SMALL_HEADER.mesh_of) == (
+        4,
+        2,
+        0,
+        None,
+    )
 
 
 @given(LAYERS)
@@ -129,7 +147,9 @@ def test_headers_that_cannot_be_read(payload):
         info_of(stream_of([(FrameType.HEADER, payload)]))
 
 
-@pytest.mark.parametrize("changes", [{"vertices": 0}, {"step": math.nan}, {"step": 0.0}, {"center": (1, 2)}])
+@pytest.mark.parametrize(
+    "changes", [{"vertices": 0}, {"step": math.nan}, {"step": 0.0}, {"center": (1, 2)}]
+)
 def test_a_header_cannot_have_illegal_values(changes):
     with pytest.raises(CorruptError):
         info_of(stream_of([(FrameType.HEADER, write_header(replace(SMALL_HEADER, **changes)))]))
@@ -155,12 +175,23 @@ def row(name: str, record: type = Header) -> str:
     """The line of the document's table for one field, without its meaning."""
     declared = fields_of(record)[name]
     least, most = declared.lengths
-    kind = {int: "method" if declared.is_method else "int", float: "float", tuple: "floats", str: "text"}[declared.type]
+    kind = {
+        int: "method" if declared.is_method else "int",
+        float: "float",
+        tuple: "floats",
+        str: "text",
+    }[declared.type]
     if declared.type is tuple:
         kind = "ints" if declared.item is int else kind
         kind += f" [{least}]" if least == most else f" [{least} to {most}]"
     default, listed = declared.default, declared.type is tuple
-    shown = "none" if default is MISSING else f"[{', '.join(map(number, default))}]" if listed else number(default)
+    shown = (
+        "none"
+        if default is MISSING
+        else f"[{', '.join(map(number, default))}]"
+        if listed
+        else number(default)
+    )
     return f"| {declared.key} | {name} | {kind} | {number(declared.low)}..{number(declared.high)} | {shown} |"
 
 
@@ -187,15 +218,22 @@ def test_declarations_are_documented():
 
 def test_the_papers_entry_is_documented():
     document = (SPEC / "extension-paper.md").read_text()
-    rows = re.findall(r"^\| (\w+) \| ([\d^-]+)\.\.([\d^-]+) \| ([\d^-]+) \|", document, re.MULTILINE)
-    stated = {name: [math.pow(*map(float, f"{text}^1".split("^")[:2])) for text in texts] for name, *texts in rows}
+    rows = re.findall(
+        r"^\| (\w+) \| ([\d^-]+)\.\.([\d^-]+) \| ([\d^-]+) \|", document, re.MULTILINE
+    )
+    stated = {
+        name: [math.pow(*map(float, f"{text}^1".split("^")[:2])) for text in texts]
+        for name, *texts in rows
+    }
     assert {name: default for name, (_, _, default) in stated.items()} == PAPER
     for name, (low, high, _) in stated.items():
         beyond = (low / 2, high * 2) if name == "shift" else (low - 1, high + 1)
         for value, refused in (low, False), (high, False), (beyond[0], True), (beyond[1], True):
             paper = replace(Constants(bits=12), **{name: value})
             header = write_header(replace(SMALL_HEADER, paper=paper.entry(LAW)))
-            with pytest.raises(CorruptError, match="legal" if refused else "unexpected section type 15"):
+            with pytest.raises(
+                CorruptError, match="legal" if refused else "unexpected section type 15"
+            ):
                 info_of(stream_of([(FrameType.HEADER, header)]))
 
 

@@ -19,14 +19,23 @@ from bsm.bitstream.container.packets import (
     Order,
     metadata_of,
 )
-from bsm.bitstream.container.wire import MAX_VARINT, FrameType, write_frame, write_preamble, write_varint
+from bsm.bitstream.container.wire import (
+    MAX_VARINT,
+    FrameType,
+    write_frame,
+    write_preamble,
+    write_varint,
+)
 from bsm.files.inspection import Skimmer
 from tools.payloads import parse_stretches
 from tools.surgery import Cursor, parse_packet
 
 CASES = [
     (Metadata({}), "80"),
-    (Metadata({"b": 1, "a": 2.5, "c": b"\x00", "d": "x"}), "84a161ca40200000a16201a163c40100a164a178"),
+    (
+        Metadata({"b": 1, "a": 2.5, "c": b"\x00", "d": "x"}),
+        "84a161ca40200000a16201a163c40100a164a178",
+    ),
     (Connectivity(b"xyz"), "78797a"),
     (Labels(b""), ""),
     (Order(b"\x07"), "07"),
@@ -47,7 +56,10 @@ def test_known_bytes(packet, expected):
 
 
 values = st.one_of(
-    st.text(), st.binary(), st.integers(-(2**63), 2**64 - 1), st.floats(allow_nan=False, allow_infinity=False)
+    st.text(),
+    st.binary(),
+    st.integers(-(2**63), 2**64 - 1),
+    st.floats(allow_nan=False, allow_infinity=False),
 )
 
 
@@ -57,7 +69,16 @@ def test_metadata_round_trip(entries):
 
 
 @pytest.mark.parametrize(
-    "entries", [{"a": None}, {"a": True}, {1: "a"}, {"a": [1]}, {"a": float("nan")}, {"a": 2**64}, {"a": "\ud800"}]
+    "entries",
+    [
+        {"a": None},
+        {"a": True},
+        {1: "a"},
+        {"a": [1]},
+        {"a": float("nan")},
+        {"a": 2**64},
+        {"a": "\ud800"},
+    ],
 )
 def test_metadata_that_cannot_be_stored(entries):
     with pytest.raises(OptionError):
@@ -86,7 +107,8 @@ def test_any_order_of_frames_comes_back(shown):
 @pytest.mark.parametrize(
     ("shown", "coded"),
     [
-        ([*range(24), *range(24)], b"\x02\x00\x18\x8d\x01\x18"),  # 24 from 0 on, then 24 from 24 before the next
+        # 24 from 0 on, then 24 from 24 before the next.
+        ([*range(24), *range(24)], b"\x02\x00\x18\x8d\x01\x18"),
         ([0, 0, 1, 1, 2, 2], b"\x03\x01\x02\x01\x02\x01\x02"),  # each is shown twice
         ([0, 1, 2, 3, 2, 1, 0], b"\x02\x00\x04\x0b\x03"),  # forward, then back
         ([0, 2, 1, 1], b"\x03\x00\x01\x08\x02\x03\x01"),
@@ -103,7 +125,8 @@ def test_frames_in_order_are_one_byte():
 
 
 @pytest.mark.parametrize(
-    ("value", "expected"), [(0, "00"), (1, "01"), (127, "7f"), (128, "8001"), (300, "ac02"), (2**35 - 1, "ffffffff7f")]
+    ("value", "expected"),
+    [(0, "00"), (1, "01"), (127, "7f"), (128, "8001"), (300, "ac02"), (2**35 - 1, "ffffffff7f")],
 )
 def test_varint_known_bytes(value, expected):
     assert write_varint(value).hex() == expected
@@ -122,9 +145,15 @@ def test_varint_refuses_what_does_not_fit(value):
 
 
 def test_blocks_and_short_frames_have_short_checksums():
-    for kind, payload, tag in ((6, b"abc", b"\x36"), (3, b"abc", b"\x33"), (3, b"a" * 127, b"\xf3\x0f")):
+    for kind, payload, tag in (
+        (6, b"abc", b"\x36"),
+        (3, b"abc", b"\x33"),
+        (3, b"a" * 127, b"\xf3\x0f"),
+    ):
         frame = tag + payload
-        assert write_frame(kind, payload) == frame + binascii.crc_hqx(frame, 0).to_bytes(2, "little")
+        assert write_frame(kind, payload) == frame + binascii.crc_hqx(frame, 0).to_bytes(
+            2, "little"
+        )
     block = b"\x86\x10" + b"a" * 128
     assert write_frame(6, b"a" * 128) == block + binascii.crc_hqx(block, 0).to_bytes(2, "little")
     other = b"\x83\x10" + b"a" * 128
@@ -147,7 +176,11 @@ def test_preamble():
     assert not any(skim(b"\x89BSM\x10"[:end]) for end in range(6))
     with pytest.raises(FormatError):
         skim(b"\x89BX")
-    with pytest.raises(UnsupportedError, match=r"version 0 of the format.* encode the source again"):
+    with pytest.raises(
+        UnsupportedError, match=r"version 0 of the format.* encode the source again"
+    ):
         skim(b"\x89BSM\x00")
-    with pytest.raises(UnsupportedError, match="version 2 of the format, and this reads 1: a later release"):
+    with pytest.raises(
+        UnsupportedError, match="version 2 of the format, and this reads 1: a later release"
+    ):
         skim(b"\x89BSM\x20")

@@ -30,7 +30,9 @@ Chunks = list[tuple[bytes, int]]
 SWIFT = ("plain 1", "texcoord 1", "normal 1", "plain 2", "texcoord 2", "normal 2")
 """Kinds of attributes, with what the header's `swift` is."""
 NAMES = ("grid", "light", "levels", "plain", "color", "texcoord", "normal", "faces", *SWIFT)
-COLUMNS = {"grid": 3, "light": 3, "levels": 3} | {name: 2 for name in NAMES if name.startswith(("tex", "normal"))}
+COLUMNS = {"grid": 3, "light": 3, "levels": 3} | {
+    name: 2 for name in NAMES if name.startswith(("tex", "normal"))
+}
 """Columns of kinds with a fixed number."""
 
 
@@ -60,7 +62,11 @@ class Kind:
 
     def start(self, given: npt.ArrayLike | None = None) -> Field:
         """The field of values that are written, or of those that will be read."""
-        return self.make(np.zeros((self.rows, self.columns), np.int32) if given is None else np.array(given, np.int32))
+        return self.make(
+            np.zeros((self.rows, self.columns), np.int32)
+            if given is None
+            else np.array(given, np.int32)
+        )
 
     def order(self) -> Ints:
         order = self.start().order
@@ -79,16 +85,26 @@ class Kind:
         return read
 
 
-SEMANTICS = {"plain": GENERIC, "faces": GENERIC, "color": COLOR, "texcoord": TEXCOORD, "normal": NORMAL}
+SEMANTICS = {
+    "plain": GENERIC,
+    "faces": GENERIC,
+    "color": COLOR,
+    "texcoord": TEXCOORD,
+    "normal": NORMAL,
+}
 
 
-def field_of(name: str, faces: npt.ArrayLike, vertices: int, largest=(), at=None, places=None) -> Kind:
+def field_of(
+    name: str, faces: npt.ArrayLike, vertices: int, largest=(), at=None, places=None
+) -> Kind:
     """The field with this name; vertices at equal `places` are one."""
     table = np.array(faces, np.int32)
     if name == "levels":
         return Kind(lambda given: levels_field(table, given), vertices, 3)
     if name in ("grid", "light"):
-        return Kind(lambda given: grid_field(table, largest, given, int(name == "light")), vertices, 3)
+        return Kind(
+            lambda given: grid_field(table, largest, given, int(name == "light")), vertices, 3
+        )
     kind, _, swift = name.partition(" ")
     of_faces, normal = kind == "faces", kind == "normal"
     rows = len(table) if of_faces else vertices
@@ -106,7 +122,9 @@ def field_of(name: str, faces: npt.ArrayLike, vertices: int, largest=(), at=None
     surface = Surface(table, np.array([] if of_faces else numbers, np.int32))
     geometry = None if at is None or of_faces else np.array(at, np.int32)
     return Kind(
-        lambda given: attribute_field(declaration, surface, given, geometry, int(swift or 0)), rows, len(largest)
+        lambda given: attribute_field(declaration, surface, given, geometry, int(swift or 0)),
+        rows,
+        len(largest),
     )
 
 
@@ -164,9 +182,15 @@ def values(rows: int, low: npt.ArrayLike, high: npt.ArrayLike, kind: str, seed: 
     elif kind == "constant":
         drawn = np.broadcast_to((low + high) // 2, shape)
     elif kind == "few":
-        drawn = np.where(rng.random(shape) < 0.9, (low + high) // 2, rng.integers(low, high + 1, shape))
+        drawn = np.where(
+            rng.random(shape) < 0.9, (low + high) // 2, rng.integers(low, high + 1, shape)
+        )
     else:
-        drawn = low + (high - low) * np.arange(rows)[:, None] // max(rows, 1) + rng.integers(0, 2, shape)
+        drawn = (
+            low
+            + (high - low) * np.arange(rows)[:, None] // max(rows, 1)
+            + rng.integers(0, 2, shape)
+        )
     return np.clip(drawn, low, high).astype(np.int32)
 
 

@@ -30,7 +30,10 @@ SEEDS = st.integers(0, 2**32 - 1)
 TORUS = grid_faces(12, 9, (True, True))
 TRIANGLE, NOTHING = [[0, 1, 2]], np.empty((0, 3), np.int32)
 K = np.arange(108)
-BUMPS = np.stack([100 * (K // 9) + (K % 9) ** 2, 90 * (K % 9), 500 + (K // 9 - 6) ** 3 + (K % 9 * 37) % 11], axis=1)
+BUMPS = np.stack(
+    [100 * (K // 9) + (K % 9) ** 2, 90 * (K % 9), 500 + (K // 9 - 6) ** 3 + (K % 9 * 37) % 11],
+    axis=1,
+)
 """Places of the vertices of the torus, in integers alone."""
 named = pytest.mark.parametrize("name", NAMES)
 
@@ -44,7 +47,14 @@ def largest_of(name: str, draw) -> list[int]:
 
 
 @named
-@given(SOUPS, st.sampled_from([0, 9, 2**31 - 1]), KINDS, SEEDS, st.sampled_from([1, 3, 20, 1000]), st.data())
+@given(
+    SOUPS,
+    st.sampled_from([0, 9, 2**31 - 1]),
+    KINDS,
+    SEEDS,
+    st.sampled_from([1, 3, 20, 1000]),
+    st.data(),
+)
 def test_values_come_back(name, mesh, reach, kind, seed, chunk, data):
     faces, vertices = mesh
     if vertices == 0 or (name == "faces" and len(faces) == 0):
@@ -52,7 +62,12 @@ def test_values_come_back(name, mesh, reach, kind, seed, chunk, data):
     rng = np.random.default_rng(seed)
     at = None if reach == 0 else rng.integers(-reach, reach + 1, (vertices, 3))
     field = field_of(
-        name, faces, vertices, largest := largest_of(name, data.draw), at, rng.integers(0, 9, vertices) % vertices
+        name,
+        faces,
+        vertices,
+        largest := largest_of(name, data.draw),
+        at,
+        rng.integers(0, 9, vertices) % vertices,
     )
     given = offered(name, len(faces) if name == "faces" else vertices, largest, kind, seed)
     np.testing.assert_array_equal(decode(field, encode(field, given, chunk)), given)
@@ -71,7 +86,9 @@ def test_what_was_learnt_goes_on_over_chunks(name):
 def test_bytes_missing_or_left_over(name):
     largest = [254, 254] if name.startswith("normal") else [99] * COLUMNS.get(name, 3)
     field = field_of(name, TORUS, 108, largest, BUMPS)
-    ((payload, rows),) = encode(field, offered(name, len(TORUS) if name == "faces" else 108, largest, "noise", 5))
+    ((payload, rows),) = encode(
+        field, offered(name, len(TORUS) if name == "faces" else 108, largest, "noise", 5)
+    )
     for length in range(0, len(payload) - 8, 5):
         with pytest.raises((TruncatedError, CorruptError)):
             field.start().read(payload[:length], rows)
@@ -148,7 +165,9 @@ def test_what_is_known_helps():
 
 
 @pytest.mark.real
-@pytest.mark.parametrize(("name", "bits", "most"), [("nicolo", 12, 14.4), ("fandisk_6475", 11, 7.5)])
+@pytest.mark.parametrize(
+    ("name", "bits", "most"), [("nicolo", 12, 14.4), ("fandisk_6475", 11, 7.5)]
+)
 def test_grids_of_real_meshes_are_small(meshes: Path, name: str, bits: int, most: float):
     positions, faces = welded(str(meshes / "static" / f"{name}.ply"))
     stream, _ = encode_stream(positions, faces, bits)  # decodes and compares

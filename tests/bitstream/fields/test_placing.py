@@ -41,8 +41,20 @@ int main(void) { printf("%ld %ld\\n", (long)looks_at_fan(500), (long)looks_at_fa
 
 def test_faces_that_share_a_vertex_are_looked_at_a_bounded_number_of_times(tmp_path: Path) -> None:
     (tmp_path / "fan.c").write_text(PROGRAM, encoding="ascii")
-    command = ["cc", "-std=gnu11", "-DKERNEL_ONE_TARGET", "-w", f"-I{ROOT}", "fan.c", "-lm", "-o", "fan"]
+    command = [
+        "cc",
+        "-std=gnu11",
+        "-DKERNEL_ONE_TARGET",
+        "-w",
+        f"-I{ROOT}",
+        "fan.c",
+        "-lm",
+        "-o",
+        "fan",
+    ]
     subprocess.run(command, cwd=tmp_path, check=True)
-    few, many = map(int, subprocess.run([tmp_path / "fan"], capture_output=True, check=True).stdout.split())
+    few, many = map(
+        int, subprocess.run([tmp_path / "fan"], capture_output=True, check=True).stdout.split()
+    )
     assert 500 < few < 500 * 200
     assert many < 4.1 * few  # four times the faces

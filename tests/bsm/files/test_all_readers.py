@@ -17,11 +17,26 @@ from tests.grids import save_grid
 from tests.motion import bending, save_frames
 from tests.shapes import file_of, torus
 
-MESHIO = {"inp": "abaqus", "bdf": "nastran", "nas": "nastran", "msh": "gmsh", "xdmf": "xdmf", "xmf": "xdmf"}
-VTK = {"vtk": "vtkUnstructuredGridWriter", "vtu": "vtkXMLUnstructuredGridWriter"}  # one of each library of files
-LIBRARIES = {"3mf": "lib3mf", "dae": "collada", **dict.fromkeys(USD_FORMATS, "pxr"), **dict.fromkeys(MESHIO, "h5py")}
+MESHIO = {
+    "inp": "abaqus",
+    "bdf": "nastran",
+    "nas": "nastran",
+    "msh": "gmsh",
+    "xdmf": "xdmf",
+    "xmf": "xdmf",
+}
+# One of each library of files.
+VTK = {"vtk": "vtkUnstructuredGridWriter", "vtu": "vtkXMLUnstructuredGridWriter"}
+LIBRARIES = {
+    "3mf": "lib3mf",
+    "dae": "collada",
+    **dict.fromkeys(USD_FORMATS, "pxr"),
+    **dict.fromkeys(MESHIO, "h5py"),
+}
 LIBRARIES |= {**dict.fromkeys(VTK, "vtk"), **dict.fromkeys(("xdmf", "xmf"), "lxml")}
-READ = sorted(kind for kind, row in FORMATS.items() if row.reader and (kind in VTK or not row.apart))
+READ = sorted(
+    kind for kind, row in FORMATS.items() if row.reader and (kind in VTK or not row.apart)
+)
 LIMITS = Limits(vertices=10_000, faces=10_000)
 
 
@@ -31,7 +46,11 @@ def valid(kind: str, folder: Path) -> bytes:
     if kind in WRITTEN_FORMATS:
         return file_of(mesh, kind)
     if kind == "dae":
-        data: bytes = pytest.importorskip("trimesh").Trimesh(mesh.positions, mesh.faces).export(file_type="dae")
+        data: bytes = (
+            pytest.importorskip("trimesh")
+            .Trimesh(mesh.positions, mesh.faces)
+            .export(file_type="dae")
+        )
         return data
     if kind == "gltf":
         document, numbers = unpack(file_of(mesh, "glb"))
@@ -41,7 +60,9 @@ def valid(kind: str, folder: Path) -> bytes:
     path = folder / f"valid.{'usdc' if kind == 'usdz' else kind}"
     if kind in MESHIO:
         meshio = pytest.importorskip("meshio")
-        meshio.write(path, meshio.Mesh(mesh.positions.round(3), {"triangle": mesh.faces}), MESHIO[kind])
+        meshio.write(
+            path, meshio.Mesh(mesh.positions.round(3), {"triangle": mesh.faces}), MESHIO[kind]
+        )
         return path.read_bytes()
     if kind in VTK:
         save_grid(path, mesh.positions, [(5, face) for face in mesh.faces])
@@ -61,8 +82,14 @@ def test_no_reader_lets_another_error_out(kind: str, tmp_path: Path) -> None:
         pytest.skip(f"needs {library}")
     whole, noise = valid(kind, tmp_path), random.Random(kind)
     cuts = [whole[: len(whole) * part // 9] for part in range(1, 9)]
-    counts = [whole[: m.start()] + b"999999999" + whole[m.end() :] for m in list(re.finditer(rb"\d+", whole))[:40:4]]
-    longs = [whole[:at] + b"\xff\xff\xff\x7f" + whole[at + 4 :] for at in range(0, min(len(whole) - 4, 400), 20)]
+    counts = [
+        whole[: m.start()] + b"999999999" + whole[m.end() :]
+        for m in list(re.finditer(rb"\d+", whole))[:40:4]
+    ]
+    longs = [
+        whole[:at] + b"\xff\xff\xff\x7f" + whole[at + 4 :]
+        for at in range(0, min(len(whole) - 4, 400), 20)
+    ]
     if kind in (
         "usd",
         "usdc",

@@ -43,14 +43,20 @@ def area(mesh):
 
 
 def names(mesh, what):
-    return [value for key, value in mesh.metadata.items() if key.startswith(f"{what}.") and key.endswith(".name")]
+    return [
+        value
+        for key, value in mesh.metadata.items()
+        if key.startswith(f"{what}.") and key.endswith(".name")
+    ]
 
 
 # ---------------------------------------------------------------------------------------------------------- OBJ and MTL
 
 
 def test_a_number_sign_begins_a_comment_at_the_start_of_a_line_and_after_numbers(tmp_path):
-    (tmp_path / "a.mtl").write_text("newmtl M #1\nKd 1 0 0 # red\n # map_Kd no.png\nmap_Kd h#1.png\nnewmtl M #2\n")
+    (tmp_path / "a.mtl").write_text(
+        "newmtl M #1\nKd 1 0 0 # red\n # map_Kd no.png\nmap_Kd h#1.png\nnewmtl M #2\n"
+    )
     (tmp_path / "h#1.png").write_bytes(png())
     (tmp_path / "a.obj").write_text(
         f"  # f 9 9 9\nmtllib a.mtl\n{THREE}v 0 0 1 # top\ng left #1\nusemtl M #1\nf 1 2 3 # 1\nusemtl M #2\nf 1 2 4\n"
@@ -58,7 +64,9 @@ def test_a_number_sign_begins_a_comment_at_the_start_of_a_line_and_after_numbers
     read = read_mesh(tmp_path / "a.obj")
     assert read.notes == ("left out: comments amid the data (2)",)
     assert read.mesh.faces.tolist() == [[0, 1, 2], [0, 1, 3]]
-    assert names(read.mesh, "material") == ["M #1", "M #2"] and names(read.mesh, "group") == ["left #1"]
+    assert names(read.mesh, "material") == ["M #1", "M #2"] and names(read.mesh, "group") == [
+        "left #1"
+    ]
     assert materials_in(read.mesh.metadata)[0] == {"name": "M #1", "Kd": "1 0 0", "map_Kd": 0}
     assert images_in(read.mesh.metadata) == {0: ("h#1.png", png())}
 
@@ -71,9 +79,15 @@ def test_continued_lines_marks_of_encodings_and_options_of_images(tmp_path):
     for encoding in ("utf-8", "utf-8-sig", "utf-16"):
         (tmp_path / "a.mtl").write_bytes(text.encode(encoding))
         read = read_mesh(tmp_path / "a.obj")
-        assert read.notes == ("left out: colors in comments (#MRGB)",) and len(read.mesh.positions) == 3
+        assert (
+            read.notes == ("left out: colors in comments (#MRGB)",)
+            and len(read.mesh.positions) == 3
+        )
         of_a, of_b = materials_in(read.mesh.metadata).values()
-        assert of_a["Kd"].split() == ["1", "0", "0"] and of_b["map_Kd.options"] == "-type sphere -s 1 1 1"
+        assert (
+            of_a["Kd"].split() == ["1", "0", "0"]
+            and of_b["map_Kd.options"] == "-type sphere -s 1 1 1"
+        )
         assert images_in(read.mesh.metadata) == {0: ("a b.png", png())}
 
 
@@ -84,7 +98,9 @@ def test_several_libraries_of_several_lines_and_with_spaces(tmp_path):
     for name in ("one.png", "two.png"):
         (tmp_path / name).write_bytes(png())
     faces = "".join(f"usemtl\t{name}\nf 1 2 3\n" for name in "ACD")
-    (tmp_path / "a.obj").write_text(f"mtllib a b.mtl\nmtllib c.mtl\td.mtl\nmtllib away.mtl\n{THREE}{faces}")
+    (tmp_path / "a.obj").write_text(
+        f"mtllib a b.mtl\nmtllib c.mtl\td.mtl\nmtllib away.mtl\n{THREE}{faces}"
+    )
     read = read_mesh(tmp_path / "a.obj")
     words = materials_in(read.mesh.metadata).values()
     assert [(m["name"], m["Kd"]) for m in words] == [("A", "1 0 0"), ("C", "0 1 0"), ("D", "0 0 1")]
@@ -97,7 +113,9 @@ def test_several_libraries_of_several_lines_and_with_spaces(tmp_path):
 
 @pytest.mark.parametrize("encoding", ["utf-8", "latin-1", "gbk", "cp1251"])
 def test_names_in_any_encoding_stay_different(encoding, tmp_path):
-    called = {"gbk": ("\u7ea2", "\u7eff"), "cp1251": ("\u0436", "\u0437")}.get(encoding, ("Gr\u00fcn", "Gr\u00e4n"))
+    called = {"gbk": ("\u7ea2", "\u7eff"), "cp1251": ("\u0436", "\u0437")}.get(
+        encoding, ("Gr\u00fcn", "Gr\u00e4n")
+    )
     (tmp_path / "a.mtl").write_bytes(
         "".join(f"newmtl {name}\nKd {i} 0 0\n" for i, name in enumerate(called)).encode(encoding)
     )
@@ -135,7 +153,9 @@ def test_two_hundred_materials_with_an_image_each_come_back(tmp_path):
     assert read.notes == () and dict(decoded.metadata) == dict(read.mesh.metadata)
     assert bsm.save(decoded, tmp_path / "out.obj") == ()
     again = read_mesh(tmp_path / "out.obj").mesh
-    assert [data for _, data in images_in(again.metadata).values()] == [png() + bytes([i]) for i in range(200)]
+    assert [data for _, data in images_in(again.metadata).values()] == [
+        png() + bytes([i]) for i in range(200)
+    ]
     assert [m["Ns"] for m in materials_in(again.metadata).values()] == [str(i) for i in range(200)]
 
 
@@ -163,7 +183,9 @@ def test_an_image_in_the_folder_of_a_library_is_found_there(tmp_path):
         assert read_mesh(path).mesh.metadata["image.0.data"] == png()
 
 
-FACET = "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n"
+FACET = (
+    "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n"
+)
 
 
 @pytest.mark.parametrize(
@@ -256,13 +278,21 @@ def test_numbers_and_lines_of_an_obj_that_mean_nothing_to_a_mesh_are_named():
 
 def comb(teeth):
     """A comb of `teeth` slots, 1 wide and 2 deep, in a plate 3 high; its area, too."""
-    top = [point for i in range(teeth) for point in ((2 * i + 1, 3), (2 * i + 1, 1), (2 * i + 2, 1), (2 * i + 2, 3))]
+    top = [
+        point
+        for i in range(teeth)
+        for point in ((2 * i + 1, 3), (2 * i + 1, 1), (2 * i + 2, 1), (2 * i + 2, 3))
+    ]
     width = 2 * teeth + 1
     outline = np.array([(0, 0), (0, 3), *top, (width, 3), (width, 0)], float)[::-1]
-    return np.column_stack([outline, 0.3 * outline @ [1, 2]]), (3 * width - 2 * teeth) * np.sqrt(1 + 0.09 + 0.36)
+    return np.column_stack([outline, 0.3 * outline @ [1, 2]]), (3 * width - 2 * teeth) * np.sqrt(
+        1 + 0.09 + 0.36
+    )
 
 
-@pytest.mark.parametrize("turn", [np.eye(3), -np.eye(3), np.eye(3)[[1, 2, 0]], np.eye(3)[[2, 1, 0]]])
+@pytest.mark.parametrize(
+    "turn", [np.eye(3), -np.eye(3), np.eye(3)[[1, 2, 0]], np.eye(3)[[2, 1, 0]]]
+)
 @pytest.mark.parametrize("teeth", [1, 2, 9])
 def test_polygons_that_are_not_convex_are_cut_without_overlaps(teeth, turn):
     pytest.importorskip("mapbox_earcut")
@@ -271,7 +301,10 @@ def test_polygons_that_are_not_convex_are_cut_without_overlaps(teeth, turn):
     polygon = np.arange(len(points))
     normal = sum(np.cross(points[i], points[(i + 1) % len(points)]) for i in range(len(points)))
     flat = np.concatenate([[len(points)], polygon])
-    text = "".join(f"v {x} {y} {z}\n" for x, y, z in points.tolist()) + f"f {' '.join(map(str, polygon + 1))}\n"
+    text = (
+        "".join(f"v {x} {y} {z}\n" for x, y, z in points.tolist())
+        + f"f {' '.join(map(str, polygon + 1))}\n"
+    )
     meshes = [as_mesh((points, faces)) for faces in (polygon[None], [polygon], flat)]
     for mesh in (*meshes, read_mesh(text.encode()).mesh):
         assert len(mesh.faces) == len(points) - 2 and area(mesh) == pytest.approx(expected)
@@ -281,10 +314,27 @@ def test_polygons_that_are_not_convex_are_cut_without_overlaps(teeth, turn):
 
 def test_a_corner_on_a_side_of_a_polygon_stays_connected():
     pytest.importorskip("mapbox_earcut")
-    outline = [(0, 0), (2, 0), (4, 0), (4, 3), (3, 3), (3, 1), (2, 1), (1, 1), (1, 3), (0, 3), (0, 2), (0, 1)]
+    outline = [
+        (0, 0),
+        (2, 0),
+        (4, 0),
+        (4, 3),
+        (3, 3),
+        (3, 1),
+        (2, 1),
+        (1, 1),
+        (1, 3),
+        (0, 3),
+        (0, 2),
+        (0, 1),
+    ]
     points = np.column_stack([np.array(outline, float), np.zeros(len(outline))])
     mesh = as_mesh((points, np.arange(len(points))[None]))
-    sides = {tuple(side) for face in mesh.faces for side in zip(face.tolist(), np.roll(face, -1).tolist())}
+    sides = {
+        tuple(side)
+        for face in mesh.faces
+        for side in zip(face.tolist(), np.roll(face, -1).tolist())
+    }
     open_sides = {side for side in sides if side[::-1] not in sides}
     assert open_sides == {(i, (i + 1) % 12) for i in range(12)} and area(mesh) == pytest.approx(8)
 
@@ -293,7 +343,9 @@ def test_a_polygon_whose_sides_cross_is_reported_and_a_huge_one_refused():
     pytest.importorskip("mapbox_earcut")
     with pytest.warns(BsmWarning, match="polygons whose sides cross"):
         turns = np.arange(5) * 4 * np.pi / 5 + 0.1
-        as_mesh((np.column_stack([np.cos(turns), np.sin(turns), turns]) * [1, 1, 0], [[0, 1, 2, 3, 4]]))
+        as_mesh(
+            (np.column_stack([np.cos(turns), np.sin(turns), turns]) * [1, 1, 0], [[0, 1, 2, 3, 4]])
+        )
     points, _ = comb(9000)
     with pytest.raises(MeshError, match="cut it into triangles"):
         as_mesh((points, np.arange(len(points))[None]))
@@ -306,20 +358,30 @@ def seamed(*more):
     mesh = torus(8, 6)
     uv = np.tile(np.linspace(0, 1, 2 * len(mesh.positions), dtype=np.float32)[:, None], (1, 2))
     seam = mesh.faces + np.where(np.arange(len(mesh.faces)) % 2, len(mesh.positions), 0)[:, None]
-    smooth = Attribute("smooth", np.arange(len(mesh.positions), dtype=np.float32), "corner", indices=mesh.faces)
+    smooth = Attribute(
+        "smooth", np.arange(len(mesh.positions), dtype=np.float32), "corner", indices=mesh.faces
+    )
     return TriangleMesh(
-        mesh.positions, mesh.faces, [Attribute("texcoord", uv, "corner", "texcoord", seam), smooth, *more]
+        mesh.positions,
+        mesh.faces,
+        [Attribute("texcoord", uv, "corner", "texcoord", seam), smooth, *more],
     )
 
 
 def test_a_ply_with_seams_keeps_its_vertices(tmp_path):
-    mesh = seamed(Attribute("paint", np.arange(36 * 8, dtype=np.uint8)[:, None].repeat(3, 1), "corner", "generic"))
+    mesh = seamed(
+        Attribute(
+            "paint", np.arange(36 * 8, dtype=np.uint8)[:, None].repeat(3, 1), "corner", "generic"
+        )
+    )
     again = read_mesh(file_of(mesh, "ply")).mesh
     assert again.positions[: len(mesh.positions)] == pytest.approx(mesh.positions)
     assert again.positions[again.faces] == pytest.approx(mesh.positions[mesh.faces])
     for name in ("texcoord", "paint", "smooth"):
         assert attribute(again, name).domain == "vertex"
-        assert np.array_equal(at_corners(again, attribute(again, name)), at_corners(mesh, attribute(mesh, name)))
+        assert np.array_equal(
+            at_corners(again, attribute(again, name)), at_corners(mesh, attribute(mesh, name))
+        )
     bsm.save(seamed(), tmp_path / "a.bsm", preset="grid14", keep_order=True)
     done = run("decode", tmp_path / "a.bsm", "-o", tmp_path / "b.ply")
     assert done.returncode == 0, done.stderr
@@ -335,22 +397,34 @@ def test_other_programs_read_the_seams_of_a_ply(tmp_path):
     bsm.save(mesh, tmp_path / "a.ply")
     theirs = trimesh.load_mesh(tmp_path / "a.ply", process=False)
     assert theirs.triangles == pytest.approx(mesh.positions[mesh.faces])
-    assert theirs.visual.uv[theirs.faces] == pytest.approx(at_corners(mesh, attribute(mesh, "texcoord")))
+    assert theirs.visual.uv[theirs.faces] == pytest.approx(
+        at_corners(mesh, attribute(mesh, "texcoord"))
+    )
 
 
 def test_a_ply_with_whole_numbers_of_64_bits_and_lists_of_vertices():
     more = "property list uchar float weights\nproperty int64 id\n"
     head = ply_head(order="binary_little_endian", more=more, corners="uchar uint64")
     points = [(0, 0, 0), (1, 0, 0), (1, 1, 0)]
-    body = b"".join(struct.pack("<3fB", *p, i) + bytes(4 * i) + struct.pack("<q", -i) for i, p in enumerate(points))
+    body = b"".join(
+        struct.pack("<3fB", *p, i) + bytes(4 * i) + struct.pack("<q", -i)
+        for i, p in enumerate(points)
+    )
     read = read_mesh(head.encode() + body + struct.pack("<B3Q", 3, 0, 1, 2))
-    assert read.mesh.faces.tolist() == [[0, 1, 2]] and attribute(read.mesh, "id").values[:, 0].tolist() == [0, -1, -2]
+    assert read.mesh.faces.tolist() == [[0, 1, 2]] and attribute(read.mesh, "id").values[
+        :, 0
+    ].tolist() == [0, -1, -2]
     assert read.notes == ("left out: the list weights of vertices",)
-    text = head.replace("binary_little_endian", "ascii") + "0 0 0 0 0\n1 0 0 1 9 -1\n1 1 0 2 9 9 -2\n3 0 1 2\n"
+    text = (
+        head.replace("binary_little_endian", "ascii")
+        + "0 0 0 0 0\n1 0 0 1 9 -1\n1 1 0 2 9 9 -2\n3 0 1 2\n"
+    )
     assert attribute(read_mesh(text.encode()).mesh, "id").values[:, 0].tolist() == [0, -1, -2]
 
 
-@pytest.mark.parametrize("ends", [("\n", "\n"), ("\r\n", "\r\n"), ("\r", "\r"), ("\n", "\r\n"), ("\r\n", "\n")])
+@pytest.mark.parametrize(
+    "ends", [("\n", "\n"), ("\r\n", "\r\n"), ("\r", "\r"), ("\n", "\r\n"), ("\r\n", "\n")]
+)
 @pytest.mark.parametrize("comment", ["short", "c" * 70_000])
 def test_line_ends_and_lengths_of_ply_headers(ends, comment):
     data = file_of(torus(5, 4), "ply")
@@ -380,11 +454,17 @@ def test_solids_of_a_text_are_groups(tmp_path):
     assert attribute(mesh, "group").values[:, 0].tolist() == [0, 1, 2]
     bsm.save(mesh, tmp_path / "b.obj")
     assert names(read_mesh(tmp_path / "b.obj").mesh, "group") == ["Inlet A", "wall #2", "Inlet A_2"]
-    for other in (b"\xef\xbb\xbf" + text.encode(), text.encode("utf-16"), text.replace("\n", "\r").encode()):
+    for other in (
+        b"\xef\xbb\xbf" + text.encode(),
+        text.encode("utf-16"),
+        text.replace("\n", "\r").encode(),
+    ):
         assert names(read_mesh(other, "stl").mesh, "group") == ["Inlet A", "wall #2", "Inlet A"]
     bare = read_mesh((solid("", 0) + solid("", 5)).encode(), "stl").mesh
     assert attribute(bare, "group").values[:, 0].tolist() == [0, 1] and not names(bare, "group")
-    assert read_mesh(solid("one", 0, "SOLID").upper().encode(), "stl").mesh.faces.tolist() == [[0, 1, 2]]
+    assert read_mesh(solid("one", 0, "SOLID").upper().encode(), "stl").mesh.faces.tolist() == [
+        [0, 1, 2]
+    ]
     bsm.save(mesh, tmp_path / "a.bsm", preset="grid14")
     done = run("decode", tmp_path / "a.bsm", "-o", tmp_path / "c.stl")
     assert done.returncode == 0 and "group" in done.stderr, "an STL that we write has no groups"
@@ -403,7 +483,11 @@ def binary(head, count, triangles, tail=b""):
         (binary(b"SOLID of bytes", 12, 12), 12, ""),
         (binary(b"x", 0, 12), 12, "in the header (0; by its size, the file has 12)"),
         (binary(b"x", 6, 12), 12, "in the header (6; by its size, the file has 12)"),
-        (binary(b"x", 0xFFFFFFFF, 12), 12, "in the header (4294967295; by its size, the file has 12)"),
+        (
+            binary(b"x", 0xFFFFFFFF, 12),
+            12,
+            "in the header (4294967295; by its size, the file has 12)",
+        ),
         (binary(b"solid", 12, 12, b"more"), 12, "4 bytes after the last triangle"),
     ],
 )
@@ -448,14 +532,24 @@ def test_what_meshio_has_and_a_mesh_cannot_have_is_a_warning():
     theirs = meshio.Mesh(
         SQUARE,
         [("triangle", [[0, 1, 2], [0, 2, 3]]), ("line", [[0, 1]])],
-        point_data={"wide": np.ones((4, 9)), "gaps": np.array([0, np.nan, 1, 2]), "words": np.array(["a"] * 4)},
+        point_data={
+            "wide": np.ones((4, 9)),
+            "gaps": np.array([0, np.nan, 1, 2]),
+            "words": np.array(["a"] * 4),
+        },
         cell_data={"tensor": [np.ones((2, 3, 3)), np.ones((1, 3, 3))]},
         point_sets={"fixed": np.array([0])},
         cell_sets={"inlet": [np.array([0]), np.array([])]},
         field_data={"gmsh name": np.array([1, 2])},
     )
     told = notes_of(theirs)
-    for name in ("values of gaps that are not numbers (1); gaps.none marks them", "words", "line", "fixed", "inlet"):
+    for name in (
+        "values of gaps that are not numbers (1); gaps.none marks them",
+        "words",
+        "line",
+        "fixed",
+        "inlet",
+    ):
         assert name in told, told
     assert "gmsh name" in told
 
@@ -464,7 +558,11 @@ def test_what_trimesh_has_and_a_mesh_cannot_have_is_a_warning():
     trimesh = pytest.importorskip("trimesh")
     wide = {"wide": np.ones((4, 33))}
     theirs = trimesh.Trimesh(
-        SQUARE, [[0, 1, 2], [0, 2, 3]], vertex_attributes=wide, metadata={"list": [1]}, process=False
+        SQUARE,
+        [[0, 1, 2], [0, 2, 3]],
+        vertex_attributes=wide,
+        metadata={"list": [1]},
+        process=False,
     )
     for given in (theirs, trimesh.Scene({"a": theirs})):
         assert "wide" in notes_of(given) and "metadata list" in notes_of(given)
@@ -494,7 +592,9 @@ def test_textures_of_open3d_are_a_warning():
 
 
 def test_tiles_name_what_an_obj_or_an_stl_has_and_read_lines_that_go_on(tmp_path):
-    (tmp_path / "a.obj").write_text(f"{THREE}v 0 1 \\\n 0\ng one\nf 1 2 3\ng two\nf 1 \\\n3 4\nl 1 2\n")
+    (tmp_path / "a.obj").write_text(
+        f"{THREE}v 0 1 \\\n 0\ng one\nf 1 2 3\ng two\nf 1 \\\n3 4\nl 1 2\n"
+    )
     done = run("tile", tmp_path / "a.obj", "-o", tmp_path / "tiles", "--grid-cell", 0.001)
     assert done.returncode == 0 and "left out: group, lines" in done.stderr, done.stderr
     data = bytearray(binary(b"x", 2, 2))
@@ -512,11 +612,18 @@ def test_lossless_refuses_what_single_precision_would_move_and_the_way_out_works
     far = TriangleMesh(100 * near.positions + [500_000.123, 4_400_000.456, 20], near.faces)
     bsm.save(far, tmp_path / "a.ply")
     done = run("encode", tmp_path / "a.ply", "-o", tmp_path / "a.bsm", "--preset", "lossless")
-    assert done.returncode == 10 and not (tmp_path / "a.bsm").exists() and "moves a vertex by 0.2" in done.stderr
+    assert (
+        done.returncode == 10
+        and not (tmp_path / "a.bsm").exists()
+        and "moves a vertex by 0.2" in done.stderr
+    )
     way = done.stderr.split("in place of the preset, give ")[1].split()[:3]
     done = run("encode", tmp_path / "a.ply", "-o", tmp_path / "a.bsm", "--keep-order", *way)
     assert done.returncode == 0, done.stderr
-    assert np.abs(bsm.load(tmp_path / "a.bsm").positions - far.positions).max() <= float(way[1]) / 2 + 1e-9
+    assert (
+        np.abs(bsm.load(tmp_path / "a.bsm").positions - far.positions).max()
+        <= float(way[1]) / 2 + 1e-9
+    )
     grid = TriangleMesh(np.round(near.positions / 0.05) * 0.05 + 70_000, near.faces)
     with pytest.raises(bsm.TargetError, match="grid-origin"):
         bsm.encode(grid, preset="lossless")
@@ -525,13 +632,23 @@ def test_lossless_refuses_what_single_precision_would_move_and_the_way_out_works
 
 
 @pytest.mark.parametrize(
-    ("more", "lost"), [("l 1 2\n", "lines"), ("f 1 2\n", "corners"), (f'# meta story: "{"x" * (9 << 20)}"\n', "story")]
+    ("more", "lost"),
+    [
+        ("l 1 2\n", "lines"),
+        ("f 1 2\n", "corners"),
+        (f'# meta story: "{"x" * (9 << 20)}"\n', "story"),
+    ],
 )
 def test_lossless_drops_nothing_unless_it_is_told_to(tmp_path, more, lost):
     file, stream = tmp_path / "a.obj", tmp_path / "a.bsm"
     file.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n" + more)
     done = run("encode", file, "-o", stream, "--preset", "lossless")
-    assert done.returncode == 11 and lost in done.stderr and "--force" in done.stderr and not stream.exists()
+    assert (
+        done.returncode == 11
+        and lost in done.stderr
+        and "--force" in done.stderr
+        and not stream.exists()
+    )
     done = run("encode", file, "-o", stream, "--preset", "lossless", "--force")
     assert (
         done.returncode == 0
@@ -544,14 +661,19 @@ def test_lossless_drops_nothing_unless_it_is_told_to(tmp_path, more, lost):
 def test_floats_that_are_labels_stay_exact():
     mesh = torus(20, 12)
     rows = len(mesh.positions)
-    values = {"label": np.arange(rows) * 7 // rows, "id": np.random.default_rng(1).permutation(rows) * 37.0}
+    values = {
+        "label": np.arange(rows) * 7 // rows,
+        "id": np.random.default_rng(1).permutation(rows) * 37.0,
+    }
     values["height"] = mesh.positions[:, 2]
     attributes = [Attribute(name, column.astype(np.float32)) for name, column in values.items()]
     labeled = TriangleMesh(mesh.positions, mesh.faces, attributes)
     decoded = bsm.decode(bsm.encode(labeled, keep_order=True))
     for name in ("label", "id"):
         assert np.array_equal(attribute(decoded, name).values, attribute(labeled, name).values)
-    assert not np.array_equal(attribute(decoded, "height").values, attribute(labeled, "height").values)
+    assert not np.array_equal(
+        attribute(decoded, "height").values, attribute(labeled, "height").values
+    )
 
 
 # ---------------------------------------------------------------------------------------------------------- 3MF and DAE
@@ -589,18 +711,24 @@ def test_nodes_of_a_dae_may_show_others_but_not_themselves(tmp_path):
     path = tmp_path / "a.dae"
     path.write_bytes(collada(chained(3), '<node id="x"><instance_node url="#n3"/></node>'))
     assert len(read_mesh(path).mesh.faces) == 8
-    path.write_bytes(collada('<node id="l"><instance_node url="#l"/></node>', '<node><instance_node url="#l"/></node>'))
+    path.write_bytes(
+        collada(
+            '<node id="l"><instance_node url="#l"/></node>',
+            '<node><instance_node url="#l"/></node>',
+        )
+    )
     with pytest.raises(FormatError, match="Node #l not found"):
         read_mesh(path)
 
 
 def test_a_dae_names_what_is_left_out_and_its_images_come_from_its_folder(tmp_path):
     pytest.importorskip("collada")
-    broken = (
-        '<instance_geometry url="#g"><bind_material><technique_common><instance_material symbol="m" target="#away"/>'
+    material = '<instance_material symbol="m" target="#away"/>'
+    binding = f"<bind_material><technique_common>{material}</technique_common></bind_material>"
+    broken = f'<instance_geometry url="#g">{binding}</instance_geometry>'
+    (tmp_path / "a.dae").write_bytes(
+        collada("", f'<node id="x">{SHOWN}</node><node id="y">{broken}</node>')
     )
-    broken += "</technique_common></bind_material></instance_geometry>"
-    (tmp_path / "a.dae").write_bytes(collada("", f'<node id="x">{SHOWN}</node><node id="y">{broken}</node>'))
     read = read_mesh(tmp_path / "a.dae")
     assert len(read.mesh.faces) == 1
     assert any("(Material #away not found)" in note for note in read.notes), read.notes
@@ -608,12 +736,16 @@ def test_a_dae_names_what_is_left_out_and_its_images_come_from_its_folder(tmp_pa
 
 def drawn_dae(drawn, effect="", points=""):
     """A DAE whose geometry draws other elements, over other points and with an effect."""
-    bound = SHOWN.replace("/>", "><bind_material><technique_common><instance_material symbol='m' target='#mm'/>")
+    bound = SHOWN.replace(
+        "/>", "><bind_material><technique_common><instance_material symbol='m' target='#mm'/>"
+    )
     bound += "</technique_common></bind_material></instance_geometry>" if effect else ""
     used = f'<library_effects><effect id="e"><profile_COMMON><technique sid="c"><phong>{effect}</phong></technique>'
     used += '</profile_COMMON></effect></library_effects><library_materials><material id="mm" name="glass">'
     used += '<instance_effect url="#e"/></material></library_materials>'
-    text = collada("", f'<node id="x">{bound if effect else SHOWN}</node>', used if effect else "").decode()
+    text = collada(
+        "", f'<node id="x">{bound if effect else SHOWN}</node>', used if effect else ""
+    ).decode()
     if points:
         count = len(points.split())
         text = text.replace("0 0 0 1 0 0 1 1 0", points).replace('count="9"', f'count="{count}"')
@@ -633,7 +765,9 @@ def test_polygons_of_a_dae_that_are_not_convex_are_cut_without_overlaps(kind, mo
     points = "0 0 0 3 0 0 3 3 0 2 3 0 2 1 0 1 1 0 1 3 0 0 3 0"
     drawn = f'<{kind} count="1">{OF_POINTS}{more}<p>0 1 2 3 4 5 6 7</p></{kind}>'
     read = read_mesh(drawn_dae(drawn, points=points), "dae")
-    assert area(read.mesh) == pytest.approx(7) and "polygons were cut into triangles: 1" in read.notes
+    assert (
+        area(read.mesh) == pytest.approx(7) and "polygons were cut into triangles: 1" in read.notes
+    )
 
 
 @pytest.mark.parametrize("turned", [False, True])
@@ -647,7 +781,9 @@ def test_polygons_of_a_dae_are_cut_with_their_holes(holes, turned):
     read = read_mesh(drawn_dae(drawn, points=GRID), "dae")
     assert area(read.mesh) == pytest.approx(16 - [0, 1, 1.5][holes] + 1) and read.dropped == ()
     a, b, c = (read.mesh.positions[read.mesh.faces[:-2, corner]] for corner in range(3))
-    assert ((np.cross(b - a, c - a)[:, 2] < 0) == turned).all(), "faces look to the side of their polygon"
+    assert ((np.cross(b - a, c - a)[:, 2] < 0) == turned).all(), (
+        "faces look to the side of their polygon"
+    )
 
 
 def test_values_at_corners_of_holes_stay_theirs():
@@ -655,25 +791,40 @@ def test_values_at_corners_of_holes_stay_theirs():
     pytest.importorskip("mapbox_earcut")
     inputs = OF_POINTS + '<input semantic="TEXCOORD" source="#t" offset="1"/>'
     values = "".join(f'<param name="{name}" type="float"/>' for name in "STP")
-    source = f'<source id="t"><float_array id="ta" count="75">{GRID}</float_array><technique_common>'
+    source = (
+        f'<source id="t"><float_array id="ta" count="75">{GRID}</float_array><technique_common>'
+    )
     source += f'<accessor source="#ta" count="25" stride="3">{values}</accessor></technique_common></source>'
-    rings = [" ".join(f"{corner} {corner}" for corner in ring.split()) for ring in (OUTER, INNER[0])]
+    rings = [
+        " ".join(f"{corner} {corner}" for corner in ring.split()) for ring in (OUTER, INNER[0])
+    ]
     drawn = f'{source}<polygons count="1">{inputs}<ph><p>{rings[0]}</p><h>{rings[1]}</h></ph></polygons>'
     mesh = read_mesh(drawn_dae(drawn, points=GRID), "dae").mesh
     assert (
         len(mesh.faces) == 8
-        and (at_corners(mesh, attribute(mesh, "texcoord")) == mesh.positions[mesh.faces][..., :2]).all()
+        and (
+            at_corners(mesh, attribute(mesh, "texcoord")) == mesh.positions[mesh.faces][..., :2]
+        ).all()
     )
 
 
 EMPTY = [
-    f'<{kind} count="0">{OF_POINTS}{p}</{kind}>' for kind in ("triangles", "lines") for p in ("", "<p></p>", "<p/>")
+    f'<{kind} count="0">{OF_POINTS}{p}</{kind}>'
+    for kind in ("triangles", "lines")
+    for p in ("", "<p></p>", "<p/>")
 ]
-EMPTY += [f'<polylist count="0">{OF_POINTS}<vcount/><p/></polylist>', f'<polygons count="0">{OF_POINTS}</polygons>']
-EMPTY += [f'<{kind} count="0">{OF_POINTS}</{kind}>' for kind in ("tristrips", "trifans", "linestrips")]
+EMPTY += [
+    f'<polylist count="0">{OF_POINTS}<vcount/><p/></polylist>',
+    f'<polygons count="0">{OF_POINTS}</polygons>',
+]
+EMPTY += [
+    f'<{kind} count="0">{OF_POINTS}</{kind}>' for kind in ("tristrips", "trifans", "linestrips")
+]
 
 
-@pytest.mark.parametrize("empty", [*EMPTY, f'<linestrips count="1">{OF_POINTS}<p>0 1 2</p></linestrips>'])
+@pytest.mark.parametrize(
+    "empty", [*EMPTY, f'<linestrips count="1">{OF_POINTS}<p>0 1 2</p></linestrips>']
+)
 def test_an_empty_element_of_a_dae_costs_no_other(empty):
     pytest.importorskip("collada")
     drawn = f'{empty}<triangles count="1">{OF_POINTS}<p>0 1 2</p></triangles>{empty}'
@@ -702,7 +853,11 @@ def test_the_opacity_of_a_dae_is_its_color_and_its_number(mode, color, transpare
         f"<transparent{f' opaque={chr(34)}{mode}{chr(34)}' if mode else ''}><color>{color}</color></transparent>"
         * bool(color)
     )
-    effect += f"<transparency><float>{transparency}</float></transparency>" if transparency is not None else ""
+    effect += (
+        f"<transparency><float>{transparency}</float></transparency>"
+        if transparency is not None
+        else ""
+    )
     drawn = f'<triangles count="1" material="m">{OF_POINTS}<p>0 1 2</p></triangles>'
     mesh = read_mesh(drawn_dae(drawn, effect), "dae").mesh
     assert mesh.metadata.get("material.0.d", 1.0) == pytest.approx(opacity)
@@ -716,8 +871,13 @@ def test_thousands_of_polygons_that_are_not_convex_are_cut_in_one_go():
     sizes, points = np.array([len(plate) for plate in plates]), np.concatenate(plates)
     text = "".join(f"v {x} {y} {z}\n" for x, y, z in points.tolist())
     ends = np.cumsum(sizes)
-    text += "".join(f"f {' '.join(map(str, range(e - s + 1, e + 1)))}\n" for s, e in zip(sizes.tolist(), ends.tolist()))
-    assert area(read_mesh(text.encode(), "obj").mesh) == pytest.approx(1000 * (comb(1)[1] + comb(2)[1]))
+    text += "".join(
+        f"f {' '.join(map(str, range(e - s + 1, e + 1)))}\n"
+        for s, e in zip(sizes.tolist(), ends.tolist())
+    )
+    assert area(read_mesh(text.encode(), "obj").mesh) == pytest.approx(
+        1000 * (comb(1)[1] + comb(2)[1])
+    )
 
 
 def test_a_dae_keeps_values_of_corners_materials_and_shared_vertices(tmp_path):
@@ -734,10 +894,14 @@ def test_a_dae_keeps_values_of_corners_materials_and_shared_vertices(tmp_path):
     effect += '<phong><diffuse><texture texture="q" texcoord="x"/></diffuse><shininess><float>9</float></shininess>'
     effect += "</phong></technique></profile_COMMON></effect></library_effects><library_materials><material "
     effect += 'id="mm" name="Skin #1"><instance_effect url="#e"/></material></library_materials>'
-    bound = SHOWN.replace("/>", "><bind_material><technique_common><instance_material symbol='m' target='#mm'/>")
+    bound = SHOWN.replace(
+        "/>", "><bind_material><technique_common><instance_material symbol='m' target='#mm'/>"
+    )
     bound += "</technique_common></bind_material></instance_geometry>"
     mirror = "<matrix>-1 0 0 5 0 1 0 0 0 0 1 0 0 0 0 1</matrix>"
-    text = collada("", f'<node id="x">{bound}</node><node id="y">{mirror}{SHOWN}</node>', effect).decode()
+    text = collada(
+        "", f'<node id="x">{bound}</node><node id="y">{mirror}{SHOWN}</node>', effect
+    ).decode()
     before, _, after = text.partition("<vertices")
     (tmp_path / "a.dae").write_text(f"{before}{uv}<vertices{after}".replace("</mesh>", strip))
     mesh = read_mesh(tmp_path / "a.dae").mesh
@@ -745,7 +909,11 @@ def test_a_dae_keeps_values_of_corners_materials_and_shared_vertices(tmp_path):
     normals = np.cross(*np.diff(mesh.positions[mesh.faces[[0, 3]]], axis=1).swapaxes(0, 1))
     assert (normals[:, 2] > 0).all(), "the mirrored part, too"
     first = materials_in(mesh.metadata)[0]
-    assert first["name"] == "Skin #1" and first["Ns"] == 9 and images_in(mesh.metadata)[first["map_Kd"]][1] == png()
+    assert (
+        first["name"] == "Skin #1"
+        and first["Ns"] == 9
+        and images_in(mesh.metadata)[first["map_Kd"]][1] == png()
+    )
     assert attribute(mesh, "material").values[:, 0].tolist() == [0, 0, 0, 1, 1, 1]
     found = at_corners(mesh, attribute(mesh, "texcoord"))
     assert found[1].tolist() == [[0, 0], [1, 1], [0, 0]] and not found[0].any()
@@ -754,23 +922,35 @@ def test_a_dae_keeps_values_of_corners_materials_and_shared_vertices(tmp_path):
 def test_a_3mf_file_has_colors_materials_and_an_error_where_its_build_is_empty(tmp_path):
     pytest.importorskip("lib3mf")
     base = '<basematerials id="9"><base name="oak" displaycolor="#FF000080"/></basematerials>'
-    shades = '<m:colorgroup id="8"><m:color color="#00FF0080"/><m:color color="#0000FF"/></m:colorgroup>'
-    painted = chained_objects(0) + base + shades + box_3mf(1, 'pid="9" pindex="0"', 'pid="8" p1="0" p2="1" p3="1"')
+    shades = (
+        '<m:colorgroup id="8"><m:color color="#00FF0080"/><m:color color="#0000FF"/></m:colorgroup>'
+    )
+    painted = (
+        chained_objects(0)
+        + base
+        + shades
+        + box_3mf(1, 'pid="9" pindex="0"', 'pid="8" p1="0" p2="1" p3="1"')
+    )
     mesh = read_mesh(three_mf(painted, '<item objectid="1"/>'), "3mf").mesh
     color = attribute(mesh, "color")
-    assert color.values[color.indices][:2].tolist() == [[[255] * 4] * 3, [[0, 255, 0, 128], *[[0, 0, 255, 255]] * 2]]
+    assert color.values[color.indices][:2].tolist() == [
+        [[255] * 4] * 3,
+        [[0, 255, 0, 128], *[[0, 0, 255, 255]] * 2],
+    ]
     assert mesh.metadata["material.0.name"] == "oak" and mesh.metadata["material.0.Kd"] == "1 0 0"
-    assert mesh.metadata["material.0.d"] == "0.501961" and (mesh.metadata["up"], mesh.metadata["unit"]) == (
-        "z",
-        "millimeters",
-    )
+    assert mesh.metadata["material.0.d"] == "0.501961" and (
+        mesh.metadata["up"],
+        mesh.metadata["unit"],
+    ) == ("z", "millimeters")
     with pytest.raises(MeshError, match="its build has no item"):
         read_mesh(three_mf(chained_objects(1), ""), "3mf")
 
 
 def box_3mf(number, of_object="", of_second=""):
     """An object of two triangles, with properties of itself and of its second triangle."""
-    corners = "".join(f'<vertex x="{x}" y="{y}" z="0"/>' for x, y in ((0, 0), (1, 0), (1, 1), (0, 1)))
+    corners = "".join(
+        f'<vertex x="{x}" y="{y}" z="0"/>' for x, y in ((0, 0), (1, 0), (1, 1), (0, 1))
+    )
     faces = f'<triangle v1="0" v2="1" v3="2"/><triangle v1="0" v2="2" v3="3" {of_second}/>'
     mesh = f"<mesh><vertices>{corners}</vertices><triangles>{faces}</triangles></mesh>"
     return f'<object id="{number}" {of_object}>{mesh}</object>'
@@ -784,7 +964,12 @@ def test_components_of_part_files_are_the_objects_that_they_name():
     parts = {"a": box_3mf(1) + box_3mf(2) + nested, "b": box_3mf(1)}
     items = '<item objectid="7"/><item objectid="9" p:path="/3D/Objects/a.model"/>'
     corners = (mesh := read_mesh(three_mf(root, items, parts), "3mf").mesh).positions[mesh.faces]
-    areas = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1) / 2
+    areas = (
+        np.linalg.norm(
+            np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1
+        )
+        / 2
+    )
     assert areas.sum() == 1 + 2 + 4 + 1 + 1
 
 
@@ -796,13 +981,24 @@ def test_what_a_ply_has_twice_or_for_some_faces_only():
     with pytest.raises(MeshError, match="the element vertex several times"):
         read_mesh(twice.replace("element face", "element vertex 0\nelement face").encode(), "ply")
     rows = "0 0 0\n1 0 0\n0 1 0\n3 0 1 2 6 0 0 1 0 1 1\n3 0 2 1 0\n"
-    read = read_mesh((ply_head(faces=2, last="property list uchar float texcoord\n") + rows).encode(), "ply")
+    read = read_mesh(
+        (ply_head(faces=2, last="property list uchar float texcoord\n") + rows).encode(), "ply"
+    )
     assert read.notes == ("faces without texture coordinates were given zeros: 1",)
 
 
 def test_colors_and_names_of_values_that_could_mean_something_else():
-    off = "COFF\n3 1 0\n" + "".join(f"{x} {y} 0 1 0 0 1\n" for x, y in ((0, 0), (1, 0), (0, 1))) + "3 0 1 2\n"
-    assert attribute(read_mesh(off.encode(), "off").mesh, "color").values[0].tolist() == [255, 0, 0, 255]
+    off = (
+        "COFF\n3 1 0\n"
+        + "".join(f"{x} {y} 0 1 0 0 1\n" for x, y in ((0, 0), (1, 0), (0, 1)))
+        + "3 0 1 2\n"
+    )
+    assert attribute(read_mesh(off.encode(), "off").mesh, "color").values[0].tolist() == [
+        255,
+        0,
+        0,
+        255,
+    ]
     with pytest.raises(MeshError, match="binary OFF"):
         read_mesh(b"OFF BINARY\n\0\0\0\3\0\0\0\1", "off")
     given = {
@@ -827,9 +1023,14 @@ def test_an_image_beyond_the_limit_of_small_metadata_comes_back(tmp_path):
     (tmp_path / "a.png").write_bytes(data)
     (tmp_path / "a.mtl").write_text("newmtl m\nmap_Kd a.png\n")
     (tmp_path / "a.obj").write_text(f"mtllib a.mtl\nusemtl m\n{THREE}f 1 2 3\n")
-    assert bsm.decode(bsm.encode(str(tmp_path / "a.obj"), preset="lossless")).metadata["image.0.data"] == data
+    assert (
+        bsm.decode(bsm.encode(str(tmp_path / "a.obj"), preset="lossless")).metadata["image.0.data"]
+        == data
+    )
     with pytest.raises(bsm.OptionError, match="metadata_bytes"):
-        bsm.encode(TriangleMesh(SQUARE, [[0, 1, 2]], (), {"story": "x" * bsm.Limits().metadata_bytes}))
+        bsm.encode(
+            TriangleMesh(SQUARE, [[0, 1, 2]], (), {"story": "x" * bsm.Limits().metadata_bytes})
+        )
 
 
 @pytest.mark.parametrize(
@@ -860,7 +1061,9 @@ def test_factors_stay_in_range_and_far_meshes_go_by_a_node(tmp_path):
     assert again.metadata["material.0.emissiveFactor"] == "223.826 223.826 223.826"
     assert again.metadata["material.0.baseColorFactor"] == "1 0 0 1"
     beyond = TriangleMesh(SQUARE, [[0, 1, 2]], (), {"material.0.baseColorFactor": "2 -1 0 1"})
-    assert bsm.save(beyond, tmp_path / "b.obj") == ("baseColorFactor of material 0 (for programs other than bsm)",)
+    assert bsm.save(beyond, tmp_path / "b.obj") == (
+        "baseColorFactor of material 0 (for programs other than bsm)",
+    )
     assert (tmp_path / "b.mtl").read_text().splitlines()[1:] == ["Kd 1 0 0"]
 
 
@@ -875,7 +1078,9 @@ def test_the_first_image_of_a_ply_has_the_color(tmp_path):
 @pytest.mark.parametrize("way", [(1, 0, 0), (1, 1, 0), (1, 1, 1)])  # by a face, an edge, a vertex
 def test_bodies_that_touch_stay_bodies_and_are_objects_of_a_3mf(way, tmp_path):
     box = boxes((0, 0, 0), way)
-    two = TriangleMesh(box.positions, box.faces, [bsm.Attribute("object", np.repeat([0, 1], 12), "face")])
+    two = TriangleMesh(
+        box.positions, box.faces, [bsm.Attribute("object", np.repeat([0, 1], 12), "face")]
+    )
     assert len(bsm.Encoder(two).notes) == 1
     for kind in ("stl", "obj"):
         bsm.save(two, tmp_path / f"a.{kind}", overwrite=True)
@@ -891,7 +1096,9 @@ def test_formats_without_materials_say_so_though_bsm_reads_them_back(kind, tmp_p
     lost = bsm.save(mesh, tmp_path / f"a.{kind}")
     assert lost == ("baseColorFactor of material 0 (for programs other than bsm)",)
     assert bsm.load(tmp_path / f"a.{kind}").metadata["material.0.baseColorFactor"] == "1 0 0 1"
-    assert bsm.save(mesh, tmp_path / "a.obj") == () and "Kd 1 0 0" in (tmp_path / "a.mtl").read_text()
+    assert (
+        bsm.save(mesh, tmp_path / "a.obj") == () and "Kd 1 0 0" in (tmp_path / "a.mtl").read_text()
+    )
 
 
 @pytest.mark.parametrize("kind", ["mesh", "post", "su2", "med", "ugrid", "xyz"])
@@ -906,22 +1113,33 @@ def test_comments_of_an_obj_come_back_or_are_named(tmp_path):
     (tmp_path / "a.obj").write_text(text)
     mesh, _, dropped = vars(read_mesh(tmp_path / "a.obj")).values()
     assert (
-        mesh.metadata["comment"] == "3D Slicer output. SPACE=RAS\nby hand" and "comments amid the data (2)" in dropped
+        mesh.metadata["comment"] == "3D Slicer output. SPACE=RAS\nby hand"
+        and "comments amid the data (2)" in dropped
     )
-    for kind, line in (("obj", "# 3D Slicer output. SPACE=RAS"), ("ply", "comment 3D Slicer output. SPACE=RAS")):
+    for kind, line in (
+        ("obj", "# 3D Slicer output. SPACE=RAS"),
+        ("ply", "comment 3D Slicer output. SPACE=RAS"),
+    ):
         bsm.save(mesh, tmp_path / f"b.{kind}")
         assert line in (tmp_path / f"b.{kind}").read_bytes().decode("latin-1").splitlines()
-        assert read_mesh(tmp_path / f"b.{kind}").mesh.metadata["comment"] == mesh.metadata["comment"]
+        assert (
+            read_mesh(tmp_path / f"b.{kind}").mesh.metadata["comment"] == mesh.metadata["comment"]
+        )
 
 
 def test_a_unit_that_others_do_not_read_is_a_note(tmp_path):
     (tmp_path / "a.obj").write_text(f"{THREE}f 1 2 3\n")
-    for meta, told in ((("unit=mm", "up=z"), "the unit (mm) and the upward axis (z)"), (("unit=m", "up=y"), "")):
+    for meta, told in (
+        (("unit=mm", "up=z"), "the unit (mm) and the upward axis (z)"),
+        (("unit=m", "up=y"), ""),
+    ):
         words = [word for one in meta for word in ("--meta", one)]
         program("encode", tmp_path / "a.obj", "-f", "--quick", *words)
         done = program("decode", tmp_path / "a.bsm", "-f", "-o", tmp_path / "b.obj", text=True)
         assert (
-            done.returncode == 0 and ("other programs do not read" in done.stderr) == bool(told) and told in done.stderr
+            done.returncode == 0
+            and ("other programs do not read" in done.stderr) == bool(told)
+            and told in done.stderr
         )
 
 
@@ -952,6 +1170,10 @@ def test_tensors_are_attributes_of_their_axes():
     values = np.arange(24.0).reshape(4, 6)
     square = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], float)
     column = Column("stress", values)
-    found = Polygons(square, np.array([4]), np.arange(4), columns=(column,)).checked(bsm.Limits()).mesh
-    assert [a.name for a in found.attributes] == [f"stress.{axes}" for axes in ("xx", "yy", "zz", "xy", "yz", "xz")]
+    found = (
+        Polygons(square, np.array([4]), np.arange(4), columns=(column,)).checked(bsm.Limits()).mesh
+    )
+    assert [a.name for a in found.attributes] == [
+        f"stress.{axes}" for axes in ("xx", "yy", "zz", "xy", "yz", "xz")
+    ]
     assert np.array_equal(np.column_stack([a.values for a in found.attributes]), values)

@@ -21,7 +21,9 @@ def test_no_pattern_begins_a_line_with_blanks_of_many_lines():
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
             if isinstance(node, ast.Constant) and isinstance(node.value, (str, bytes)):
                 text = node.value if isinstance(node.value, str) else node.value.decode("latin-1")
-                assert not re.match(r"\^\(?(\?:)?\\s[*+]", text), f"{path.name}, line {node.lineno}: {text[:40]}"
+                assert not re.match(r"\^\(?(\?:)?\\s[*+]", text), (
+                    f"{path.name}, line {node.lineno}: {text[:40]}"
+                )
 
 
 # ---------------------------------------------------------------------------------------------------- Nastran
@@ -49,11 +51,18 @@ def test_each_coordinate_system_is_placed_once(tmp_path):
             bsm.read_mesh(tmp_path / "a.nas")
 
 
-@pytest.mark.parametrize(("name", "text"), [("bdf", "INCLUDE '{}'\n"), ("inp", "*INCLUDE, INPUT={}\n")])
+@pytest.mark.parametrize(
+    ("name", "text"), [("bdf", "INCLUDE '{}'\n"), ("inp", "*INCLUDE, INPUT={}\n")]
+)
 def test_files_may_include_each_other_deeper_than_python_calls(name, text, tmp_path):
-    end = {"bdf": FACE.format(0), "inp": "*NODE\n1,0,0,0\n2,1,0,0\n3,0,1,0\n*ELEMENT, TYPE=S3\n1,1,2,3\n"}[name]
+    end = {
+        "bdf": FACE.format(0),
+        "inp": "*NODE\n1,0,0,0\n2,1,0,0\n3,0,1,0\n*ELEMENT, TYPE=S3\n1,1,2,3\n",
+    }[name]
     for number in range(1500):
-        (tmp_path / f"{number}.{name}").write_text(text.format(f"{number + 1}.{name}") if number < 1499 else end)
+        (tmp_path / f"{number}.{name}").write_text(
+            text.format(f"{number + 1}.{name}") if number < 1499 else end
+        )
     assert len(bsm.read_mesh(tmp_path / f"0.{name}").mesh.faces) == 1
 
 
@@ -92,7 +101,8 @@ def values(name: str, time: float, width: int, rows: str) -> str:
 
 
 @pytest.mark.parametrize(
-    "more", [values("a", 0, 10**8, ""), "".join(values(f"n{n}", 0, 1, "1 2.5\n") for n in range(4000))]
+    "more",
+    [values("a", 0, 10**8, ""), "".join(values(f"n{n}", 0, 1, "1 2.5\n") for n in range(4000))],
 )
 def test_tables_of_few_values_are_refused_before_they_are_made(more, tmp_path):
     (tmp_path / "a.msh").write_text(gmsh(20_000, more))
@@ -105,7 +115,9 @@ def test_tables_of_few_values_are_refused_before_they_are_made(more, tmp_path):
 
 
 def test_times_of_few_values_take_as_much_memory_as_one(tmp_path):
-    (tmp_path / "a.msh").write_text(gmsh(5000, "".join(values("a", n, 1, "1 2.5\n") for n in range(1000))))
+    (tmp_path / "a.msh").write_text(
+        gmsh(5000, "".join(values("a", n, 1, "1 2.5\n") for n in range(1000)))
+    )
     tracemalloc.start()
     frames = sequence_in(str(tmp_path / "a.msh"))
     _, most = tracemalloc.get_traced_memory()
@@ -131,12 +143,16 @@ def xdmf(path: Path, inside: str) -> Path:
 
 def test_references_that_double_are_refused(tmp_path):
     two = '<DataItem Reference="XML">/Xdmf/Domain/DataItem[@Name="d{}"]</DataItem>' * 2
-    chain = "".join(f'<DataItem Name="d{n}">{two.format(n - 1, n - 1)}</DataItem>' for n in range(1, 40))
+    chain = "".join(
+        f'<DataItem Name="d{n}">{two.format(n - 1, n - 1)}</DataItem>' for n in range(1, 40)
+    )
     with pytest.raises(bsm.LimitError):
         bsm.read_mesh(xdmf(tmp_path / "a.xdmf", TABLE + chain + GRID.format("")))
 
 
-@pytest.mark.parametrize("path", ["//*[//*[//*[@q]]]", "//*[count(//*)=9]", "//Grid//*", "/Xdmf" * 200])
+@pytest.mark.parametrize(
+    "path", ["//*[//*[//*[@q]]]", "//*[count(//*)=9]", "//Grid//*", "/Xdmf" * 200]
+)
 def test_paths_in_paths_are_refused(path, tmp_path):
     attribute = f'<Attribute Name="a"><DataItem Reference="XML">{path}</DataItem></Attribute>'
     with pytest.raises(bsm.FormatError, match="more than a path"):
@@ -166,6 +182,8 @@ def test_a_large_table_that_many_grids_name_is_charged_for_each(tmp_path):
 
 def test_times_are_counted_before_they_are_made(tmp_path):
     time = '<Time TimeType="HyperSlab"><DataItem Dimensions="3" Format="XML">0 1 1e14</DataItem></Time>'
-    series = f'<Grid GridType="Collection" CollectionType="Temporal">{time}{GRID.format("") * 2}</Grid>'
+    series = (
+        f'<Grid GridType="Collection" CollectionType="Temporal">{time}{GRID.format("") * 2}</Grid>'
+    )
     with pytest.raises(bsm.FormatError, match="100000000000000 times for 2 steps"):
         bsm.read_mesh(xdmf(tmp_path / "a.xdmf", series))

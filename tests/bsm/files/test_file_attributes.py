@@ -26,7 +26,9 @@ def png(*head, pixels=bytes([0, 200, 10, 20])):
         return struct.pack(">I", len(data)) + body + struct.pack(">I", zlib.crc32(body))
 
     begin = chunk(b"IHDR", struct.pack(">IIBBBBB", *(head or (1, 1, 8, 2)), 0, 0, 0))
-    return b"\x89PNG\r\n\x1a\n" + begin + chunk(b"IDAT", zlib.compress(pixels)) + chunk(b"IEND", b"")
+    return (
+        b"\x89PNG\r\n\x1a\n" + begin + chunk(b"IDAT", zlib.compress(pixels)) + chunk(b"IEND", b"")
+    )
 
 
 def attribute(mesh, name):
@@ -73,7 +75,9 @@ def assert_same(mesh, again, names, error=0.0):
         found = attribute(again, name)
         before = attribute(mesh, name)
         assert found.semantic == before.semantic and found.components == before.components
-        assert np.abs(at_corners(again, found).astype(float) - at_corners(mesh, before)).max() <= error, name
+        assert (
+            np.abs(at_corners(again, found).astype(float) - at_corners(mesh, before)).max() <= error
+        ), name
 
 
 # ------------------------------------------------------------------------------------------------------------ reading
@@ -93,9 +97,18 @@ def test_an_obj_with_everything(tmp_path):
     source = read_mesh(tmp_path / "a.obj")
     mesh = source.mesh
     assert source.dropped == source.notes == ()
-    assert attribute(mesh, "color").values.tolist() == [[255, 0, 128], [0, 0, 0], [0, 0, 0], [0, 255, 0]]
+    assert attribute(mesh, "color").values.tolist() == [
+        [255, 0, 128],
+        [0, 0, 0],
+        [0, 0, 0],
+        [0, 255, 0],
+    ]
     assert at_corners(mesh, attribute(mesh, "texcoord"))[1].tolist() == [[0, 0], [1, 1], [0.5, 1]]
-    assert at_corners(mesh, attribute(mesh, "normal"))[1].tolist() == [[0, 0, 1], [0, 1, 0], [0, 1, 0]]
+    assert at_corners(mesh, attribute(mesh, "normal"))[1].tolist() == [
+        [0, 0, 1],
+        [0, 1, 0],
+        [0, 1, 0],
+    ]
     assert attribute(mesh, "material").values[:, 0].tolist() == [0, 1, 2]
     assert attribute(mesh, "group").values[:, 0].tolist() == [0, 1, 1]
     entries = dict(mesh.metadata)
@@ -154,12 +167,16 @@ def test_images_outside_the_folder_are_not_taken(tmp_path):
     (inside / "letter.png").write_text("dear all")
     (inside / "link.png").symlink_to(tmp_path / "secret.png")
     names = ["../secret.png", str(tmp_path / "secret.png"), "letter.png", "link.png", "\0", "."]
-    (inside / "a.mtl").write_text("".join(f"newmtl m{i}\nmap_Kd {name}\n" for i, name in enumerate(names)))
+    (inside / "a.mtl").write_text(
+        "".join(f"newmtl m{i}\nmap_Kd {name}\n" for i, name in enumerate(names))
+    )
     (inside / "a.obj").write_text(f"mtllib a.mtl\n{TRIANGLE}f 1 2 3\n")
     source = read_mesh(inside / "a.obj")
     assert not any(isinstance(value, bytes) for value in source.mesh.metadata.values())
     assert len([note for note in source.notes if "its name was kept" in note]) == len(names)
-    (inside / "a.obj").write_text(f"mtllib ../{tmp_path.name}/../../etc/passwd\n{TRIANGLE}f 1 2 3\n")
+    (inside / "a.obj").write_text(
+        f"mtllib ../{tmp_path.name}/../../etc/passwd\n{TRIANGLE}f 1 2 3\n"
+    )
     assert "not in the folder of the mesh" in " ".join(read_mesh(inside / "a.obj").notes)
 
 
@@ -167,7 +184,9 @@ def test_metadata_that_are_too_large_are_left_out_and_reported(tmp_path):
     (tmp_path / "a.mtl").write_text("newmtl m\nmap_Kd a.png\nmap_Bump b.png\n")
     (tmp_path / "a.png").write_bytes(png() + bytes(900))
     (tmp_path / "b.png").write_bytes(png() + bytes(5000))
-    (tmp_path / "a.obj").write_text(f'# meta story: "{"long " * 300}"\nmtllib a.mtl\nusemtl m\n{TRIANGLE}f 1 2 3\n')
+    (tmp_path / "a.obj").write_text(
+        f'# meta story: "{"long " * 300}"\nmtllib a.mtl\nusemtl m\n{TRIANGLE}f 1 2 3\n'
+    )
     source = read_mesh(tmp_path / "a.obj", limits=Limits(metadata_bytes=1000))
     assert {"image.0.data", "image.1.data"} <= source.mesh.metadata.keys(), "images do not count"
     assert source.dropped == ("story",) and "more than 1000" in source.notes[-1]
@@ -187,10 +206,15 @@ def test_many_names_are_one_entry(tmp_path):
 
 
 def test_more_entries_than_there_can_be_are_left_out_and_reported(tmp_path):
-    (tmp_path / "a.mtl").write_text("".join(f"newmtl m{n}\nKd 1 0 0\nKa 0 0 0\nNs 1\n" for n in range(8200)))
+    (tmp_path / "a.mtl").write_text(
+        "".join(f"newmtl m{n}\nKd 1 0 0\nKa 0 0 0\nNs 1\n" for n in range(8200))
+    )
     (tmp_path / "a.obj").write_text(f"mtllib a.mtl\n{TRIANGLE}f 1 2 3\n")
     source = read_mesh(tmp_path / "a.obj")
-    assert len(source.mesh.metadata) == 1 << 15 and "33 entries of metadata, material.8191." in source.notes[-1]
+    assert (
+        len(source.mesh.metadata) == 1 << 15
+        and "33 entries of metadata, material.8191." in source.notes[-1]
+    )
     assert bsm.decode(bsm.encode(source.mesh, grid=8)).metadata == source.mesh.metadata
 
 
@@ -207,7 +231,9 @@ def test_a_ply_as_text_with_everything():
     ]  # fmt: skip
     source = read_mesh("\n".join(lines).encode())
     mesh = source.mesh
-    assert [(a.name, a.domain, a.semantic, a.values.dtype.name, a.components) for a in mesh.attributes] == [
+    assert [
+        (a.name, a.domain, a.semantic, a.values.dtype.name, a.components) for a in mesh.attributes
+    ] == [
         ("normal", "vertex", "normal", "float32", 3),
         ("color", "vertex", "color", "uint8", 4),
         ("texcoord", "vertex", "texcoord", "float32", 2),
@@ -219,7 +245,11 @@ def test_a_ply_as_text_with_everything():
     ]
     assert attribute(mesh, "flags").values[:, 0].tolist() == [7, 7, 9], "a square is two triangles"
     wedges = at_corners(mesh, attribute(mesh, "corner_texcoord"))
-    assert wedges.tolist() == [[[0, 0], [1, 0], [1, 1]], [[0, 0], [1, 1], [0, 1]], [[0, 0], [0.5, 0], [1, 1]]]
+    assert wedges.tolist() == [
+        [[0, 0], [1, 0], [1, 1]],
+        [[0, 0], [1, 1], [0, 1]],
+        [[0, 0], [0.5, 0], [1, 1]],
+    ]
     assert source.dropped == ("edge",)
     assert mesh.metadata["unit"] == "cm" and mesh.metadata["image.0.name"] == "skin.png"
 
@@ -233,12 +263,24 @@ def test_a_binary_ply(order, ragged):
         "property short part\nproperty list uchar int vertex_indices\nproperty list uchar float texcoord\n"
         "property list uchar float odd\nproperty uchar red\nproperty uchar green\nproperty uchar blue\nend_header\n"
     )
-    points = b"".join(struct.pack(f"{order}3fH", x, y, 0, 500 + x) for x, y in ((0, 0), (1, 0), (1, 1), (0, 1)))
+    points = b"".join(
+        struct.pack(f"{order}3fH", x, y, 0, 500 + x) for x, y in ((0, 0), (1, 0), (1, 1), (0, 1))
+    )
     faces = b""
     for part, corners in ((-3, [0, 1, 2, 3] if ragged else [0, 1, 3]), (4, [1, 2, 3])):
         uv = [0.25 * i for i in range(2 * len(corners))]
         faces += struct.pack(
-            f"{order}hB{len(corners)}iB{len(uv)}fB1f3B", part, len(corners), *corners, len(uv), *uv, 1, 9, 1, 2, 3
+            f"{order}hB{len(corners)}iB{len(uv)}fB1f3B",
+            part,
+            len(corners),
+            *corners,
+            len(uv),
+            *uv,
+            1,
+            9,
+            1,
+            2,
+            3,
         )
     source = read_mesh(head.encode() + points + faces)
     parts = [-3, -3, 4] if ragged else [-3, 4]
@@ -258,7 +300,13 @@ def test_a_binary_ply(order, ragged):
         ("COFF", " 1 0 0", "", {"color": [1, 0, 0]}, ()),
         ("COFF", " 1.0 0.0 0.0", "", {"color": [255, 0, 0]}, ()),
         ("NOFF", " 0 0 1", "", {"normal": [0, 0, 1]}, ()),
-        ("STCNOFF", " 0 0 1 9 9 9 0.5 1", "", {"normal": [0, 0, 1], "color": [9, 9, 9], "texcoord": [0.5, 1]}, ()),
+        (
+            "STCNOFF",
+            " 0 0 1 9 9 9 0.5 1",
+            "",
+            {"normal": [0, 0, 1], "color": [9, 9, 9], "texcoord": [0.5, 1]},
+            (),
+        ),
         ("OFF", "", " 1.0 0.5 0.0", {"color": [1, 0.5, 0]}, ()),
         ("OFF", "", " 30 20 10 255", {"color": [30, 20, 10, 255]}, ()),
         ("OFF", " 7 8 9", "", {}, ("numbers after the coordinates",)),
@@ -281,7 +329,11 @@ def test_the_arrays_of_an_npz(tmp_path):
         colors=np.zeros((4, 3), np.uint8),
         uv=np.zeros(2),
         label=np.array(["a"] * 4),
-        **{"face/group": np.arange(4), "corner/texcoord": np.zeros((4, 3, 2)), "vertex/huge": np.full(4, 2**40)},
+        **{
+            "face/group": np.arange(4),
+            "corner/texcoord": np.zeros((4, 3, 2)),
+            "vertex/huge": np.full(4, 2**40),
+        },
     )
     source = read_mesh(tmp_path / "a.npz")
     assert {(a.name, a.domain, a.semantic) for a in source.mesh.attributes} == {
@@ -294,7 +346,9 @@ def test_the_arrays_of_an_npz(tmp_path):
 
 def test_numbers_of_an_stl():
     mesh = tetrahedron()
-    marked = TriangleMesh(mesh.positions, mesh.faces, [Attribute("attribute", np.arange(4, dtype=np.uint16), "face")])
+    marked = TriangleMesh(
+        mesh.positions, mesh.faces, [Attribute("attribute", np.arange(4, dtype=np.uint16), "face")]
+    )
     again = read_mesh(written_mesh(marked, "stl").data).mesh
     assert attribute(again, "attribute").values[:, 0].tolist() == [0, 1, 2, 3]
     assert read_mesh(written_mesh(mesh, "stl").data).mesh.attributes == ()
@@ -306,12 +360,18 @@ def test_what_trimesh_tells(kind):
     for needed in {"3mf": ("networkx", "lxml", "lib3mf"), "dae": ("collada",)}.get(kind, ()):
         pytest.importorskip(needed)
     box = trimesh.creation.box()
-    box.visual = trimesh.visual.ColorVisuals(box, vertex_colors=np.arange(32, dtype=np.uint8).reshape(8, 4))
+    box.visual = trimesh.visual.ColorVisuals(
+        box, vertex_colors=np.arange(32, dtype=np.uint8).reshape(8, 4)
+    )
     data = box.export(file_type=kind)
     source = read_mesh(data if isinstance(data, bytes) else data.encode(), kind)
     held = {attribute.name for attribute in source.mesh.attributes}
     assert ("color" in held) == (kind in ("dae", "glb"))
-    assert source.mesh.metadata.get("unit") == {"dae": "meters", "glb": "meters", "3mf": "millimeters"}.get(kind)
+    assert source.mesh.metadata.get("unit") == {
+        "dae": "meters",
+        "glb": "meters",
+        "3mf": "millimeters",
+    }.get(kind)
     assert source.mesh.metadata.get("up") == {"dae": "y", "glb": "y", "3mf": "z"}.get(kind)
 
 
@@ -330,7 +390,9 @@ KEPT = {
 
 def by_material(mesh):
     order = np.argsort(attribute(mesh, "material").values[:, 0], kind="stable")
-    taken = [attribute.taken(np.arange(len(mesh.positions)), order) for attribute in mesh.attributes]
+    taken = [
+        attribute.taken(np.arange(len(mesh.positions)), order) for attribute in mesh.attributes
+    ]
     return TriangleMesh(mesh.positions, mesh.faces[order], taken, mesh.metadata)
 
 
@@ -338,7 +400,11 @@ def obj_of(*values):
     """Texture coordinates and faces in an OBJ of two triangles with these values at their corners."""
     uv = Attribute("uv", np.array(values, np.float32), "corner", "texcoord")
     mesh = TriangleMesh(np.eye(4, 3), [[0, 1, 2], [1, 3, 2]], [uv])
-    return [line for line in written_mesh(mesh, "obj").data.decode().splitlines() if line.startswith(("v", "f"))]
+    return [
+        line
+        for line in written_mesh(mesh, "obj").data.decode().splitlines()
+        if line.startswith(("v", "f"))
+    ]
 
 
 def test_texture_coordinates_of_an_obj_are_written_once():
@@ -349,7 +415,14 @@ def test_texture_coordinates_of_an_obj_are_written_once():
 
 def test_texture_coordinates_without_seams_have_the_numbers_of_vertices(tmp_path):
     lines = obj_of([1, 1], [0, 0.5], [1, 1], [0, 0.5], [0.5, 0], [1, 1])
-    assert lines[4:] == ["vt 1 1", "vt 0 0.5", "vt 1 1", "vt 0.5 0", "f 1/1 2/2 3/3", "f 2/2 4/4 3/3"]
+    assert lines[4:] == [
+        "vt 1 1",
+        "vt 0 0.5",
+        "vt 1 1",
+        "vt 0.5 0",
+        "f 1/1 2/2 3/3",
+        "f 2/2 4/4 3/3",
+    ]
     vtk = pytest.importorskip("vtkmodules.vtkIOGeometry")
     (tmp_path / "a.obj").write_text("\n".join(lines))
     reader = vtk.vtkOBJReader()
@@ -360,12 +433,18 @@ def test_texture_coordinates_without_seams_have_the_numbers_of_vertices(tmp_path
 
 def test_faces_of_an_obj_are_grouped_unless_they_are():
     mesh = torus(40, 24)
-    for numbers, changes in ((np.arange(len(mesh.faces)) % 3, 3), (np.arange(len(mesh.faces)) // 100 % 3, 20)):
+    for numbers, changes in (
+        (np.arange(len(mesh.faces)) % 3, 3),
+        (np.arange(len(mesh.faces)) // 100 % 3, 20),
+    ):
         of_faces = Attribute("material", numbers, "face")
         data = written_mesh(TriangleMesh(mesh.positions, mesh.faces, [of_faces]), "obj").data
         assert data.count(b"usemtl") == changes
         again = read_mesh(data, "obj").mesh
-        assert np.bincount(attribute(again, "material").values[:, 0]).tolist() == np.bincount(numbers).tolist()
+        assert (
+            np.bincount(attribute(again, "material").values[:, 0]).tolist()
+            == np.bincount(numbers).tolist()
+        )
 
 
 @pytest.mark.parametrize("kind", MESH_FORMATS)
@@ -385,7 +464,9 @@ def test_there_and_back(kind, tmp_path):
         assert source.mesh.metadata["image.0.data"] == png()
         assert source.notes == source.dropped == ()
     if kind == "obj":
-        assert (tmp_path / "b.mtl").read_text() == "newmtl red\nKd 1 0 0\nnewmtl painted\nmap_Kd b.0.png\n"
+        assert (
+            tmp_path / "b.mtl"
+        ).read_text() == "newmtl red\nKd 1 0 0\nnewmtl painted\nmap_Kd b.0.png\n"
         assert source.mesh.metadata["material.1.map_Kd"] == 0
     if kind in ("npz", "vtp"):
         assert source.mesh.metadata == mesh.metadata
@@ -401,17 +482,28 @@ def test_glb_there_and_back(tmp_path):
     again = source.mesh
     # Faces are together that have one material.
     order = np.argsort(attribute(mesh, "material").values[:, 0], kind="stable")
-    assert np.allclose(1000 * again.positions[again.faces], mesh.positions[mesh.faces[order]], atol=1e-6)
+    assert np.allclose(
+        1000 * again.positions[again.faces], mesh.positions[mesh.faces[order]], atol=1e-6
+    )
     for name in ("normal", "texcoord", "label"):
         before = at_corners(mesh, attribute(mesh, name))[order]
         assert at_corners(again, attribute(again, name)) == pytest.approx(before, abs=1e-6), name
     colors = at_corners(again, attribute(again, "color"))
     assert np.array_equal(colors[:, :, :3], at_corners(mesh, attribute(mesh, "color"))[order])
-    assert attribute(again, "material").values[:, 0].tolist() == sorted(np.arange(len(mesh.faces)) % 2)
+    assert attribute(again, "material").values[:, 0].tolist() == sorted(
+        np.arange(len(mesh.faces)) % 2
+    )
     entries = again.metadata
     assert entries["image.0.data"] == png() and entries["material.1.baseColorTexture"] == 0
-    assert entries["material.0.name"] == "red" and entries["material.0.baseColorFactor"] == "1 0 0 1"
-    assert (entries["name"], entries["unit"], entries["year"], entries["scale"]) == ("Tuch № 1", "meters", 1994, 0.25)
+    assert (
+        entries["material.0.name"] == "red" and entries["material.0.baseColorFactor"] == "1 0 0 1"
+    )
+    assert (entries["name"], entries["unit"], entries["year"], entries["scale"]) == (
+        "Tuch № 1",
+        "meters",
+        1994,
+        0.25,
+    )
 
 
 def test_a_jpeg_is_not_compressed_again(tmp_path):
@@ -443,7 +535,10 @@ def test_what_lies_beside_is_called_like_the_file(tmp_path):
     }
     mesh = tetrahedron()
     mesh = TriangleMesh(
-        mesh.positions, mesh.faces, (), {**hostile, "material.0.map_Kd": 0, "material.7.Kd": "1\nnewmtl q"}
+        mesh.positions,
+        mesh.faces,
+        (),
+        {**hostile, "material.0.map_Kd": 0, "material.7.Kd": "1\nnewmtl q"},
     )
     assert set(written_mesh(mesh, "obj", tmp_path / "c.obj").beside) == {"c.mtl", "c.0.png"}
     bsm.save(mesh, tmp_path / "c.obj")
@@ -455,7 +550,9 @@ def test_what_lies_beside_is_called_like_the_file(tmp_path):
     assert (tmp_path / "d.0.png").read_bytes() == b"mine" and not (tmp_path / "d.obj").exists()
 
 
-numbers = st.sampled_from(["uint8", "int8", "uint16", "int16", "uint32", "int32", "float32", "float64"])
+numbers = st.sampled_from(
+    ["uint8", "int8", "uint16", "int16", "uint32", "int32", "float32", "float64"]
+)
 names = st.text(st.characters(codec="utf-8", exclude_characters="\0"), min_size=1, max_size=20)
 
 
@@ -472,7 +569,9 @@ def meshes(draw):
         semantic = draw(st.sampled_from(["generic", "color", "normal", "texcoord"]))
         found.append(Attribute(name, values, domain, semantic))
     value = st.text(max_size=9) | st.integers(-9, 9) | st.floats(-9, 9) | st.binary(max_size=9)
-    return TriangleMesh(mesh.positions, mesh.faces, found, draw(st.dictionaries(names, value, max_size=3)))
+    return TriangleMesh(
+        mesh.positions, mesh.faces, found, draw(st.dictionaries(names, value, max_size=3))
+    )
 
 
 @settings(max_examples=60, suppress_health_check=[HealthCheck.too_slow])
@@ -487,12 +586,18 @@ def test_whatever_is_written_is_read(mesh, kind):
         assert {a.name for a in again.attributes} == {a.name for a in mesh.attributes}
     if kind == "ply":
         values = [at_corners(mesh, a).astype(float).sum() for a in mesh.attributes]
-        assert sum(at_corners(again, a).astype(float).sum() for a in again.attributes) == pytest.approx(sum(values))
+        assert sum(
+            at_corners(again, a).astype(float).sum() for a in again.attributes
+        ) == pytest.approx(sum(values))
 
 
 GLTF_WORDS = "baseColorFactor baseColorTexture metallicFactor doubleSided"
 words = st.sampled_from(f"name Kd d map_Kd map_Kd.options {GLTF_WORDS}".split())
-things = st.sampled_from(["", "1 0 0", "1 1 1 x", "nan", "-s 1", "\n", "\ud800"]) | st.integers(-1, 3) | st.floats()
+things = (
+    st.sampled_from(["", "1 0 0", "1 1 1 x", "nan", "-s 1", "\n", "\ud800"])
+    | st.integers(-1, 3)
+    | st.floats()
+)
 
 
 @settings(max_examples=60)
@@ -500,7 +605,9 @@ things = st.sampled_from(["", "1 0 0", "1 1 1 x", "nan", "-s 1", "\n", "\ud800"]
 @example(statements={(0, "name"): "\ud800"}, images={}, kind="3mf")
 @given(
     statements=st.dictionaries(st.tuples(st.integers(0, 2), words), things, max_size=5),
-    images=st.dictionaries(st.integers(0, 2), st.sampled_from([b"", b"x", png(), png()[:20]]), max_size=2),
+    images=st.dictionaries(
+        st.integers(0, 2), st.sampled_from([b"", b"x", png(), png()[:20]]), max_size=2
+    ),
     kind=st.sampled_from(WRITTEN_FORMATS),
 )
 def test_materials_of_any_kind_are_written_or_left_out(statements, images, kind):
@@ -513,7 +620,9 @@ def test_materials_of_any_kind_are_written_or_left_out(statements, images, kind)
     mesh = tetrahedron()
     uv = Attribute("texcoord", np.zeros((4, 2), np.float32), semantic="texcoord")
     faces = Attribute("material", np.arange(4) % 3, "face")
-    written = written_mesh(TriangleMesh(mesh.positions, mesh.faces, [uv, faces], metadata), kind, "a")
+    written = written_mesh(
+        TriangleMesh(mesh.positions, mesh.faces, [uv, faces], metadata), kind, "a"
+    )
     assert len(read_mesh(written.data, kind).mesh.faces) == 4
 
 

@@ -64,7 +64,9 @@ def test_a_vtp_takes_time_as_it_is_long():
     with pytest.raises(bsm.FormatError):
         read_mesh(b'<VTKFile type="PolyData">' + b"<AppendedData " * 300_000)
     with pytest.raises((bsm.FormatError, bsm.LimitError), match=r"XML is broken|over the limit"):
-        read_mesh(b'<VTKFile type="PolyData">' + b"".join(b"<a%d/>" % number for number in range(300_000)))
+        read_mesh(
+            b'<VTKFile type="PolyData">' + b"".join(b"<a%d/>" % number for number in range(300_000))
+        )
     assert time.process_time() - begun < 5
 
 
@@ -80,26 +82,34 @@ def test_strange_encodings_of_xml(encoding):
 
 @pytest.mark.parametrize("vertex", [2**32 + 2, 2**31, -1, 2**63 + 2])
 def test_faces_of_a_pipe_do_not_wrap(vertex):
-    given = npy(np.array([[0, 1, vertex]], np.uint64 if vertex > 2**62 else np.int64)) + npy(np.eye(3))
+    given = npy(np.array([[0, 1, vertex]], np.uint64 if vertex > 2**62 else np.int64)) + npy(
+        np.eye(3)
+    )
     with pytest.raises(bsm.MeshError, match="refers to vertex"):
         sequence_in(given, "npy")
 
 
 def test_a_side_that_is_true():
     with pytest.raises(bsm.CorruptError, match="shape"):
-        sequence_in(npy(np.zeros((1, 3), np.int64)).replace(b"(1, 3), }   ", b"(True, 3), }"), "npy")
+        sequence_in(
+            npy(np.zeros((1, 3), np.int64)).replace(b"(1, 3), }   ", b"(True, 3), }"), "npy"
+        )
 
 
 def test_a_header_of_an_array_is_bounded():
     packed = io.BytesIO()
     with zipfile.ZipFile(packed, "w", zipfile.ZIP_DEFLATED) as archive:
-        archive.writestr("positions.npy", b"\x93NUMPY\2\0" + (1 << 25).to_bytes(4, "little") + bytes(1 << 25))
+        archive.writestr(
+            "positions.npy", b"\x93NUMPY\2\0" + (1 << 25).to_bytes(4, "little") + bytes(1 << 25)
+        )
     with memory_below(10e6), pytest.raises(bsm.TruncatedError, match="the header of an npy array"):
         read_mesh(packed.getvalue(), "npz")
 
 
 def test_rows_of_a_ply_without_properties_take_no_memory():
-    head = ply_head(order=LITTLE).replace("element vertex", "element free 999999999999999999\nelement vertex")
+    head = ply_head(order=LITTLE).replace(
+        "element vertex", "element free 999999999999999999\nelement vertex"
+    )
     body = np.eye(3, dtype="<f4").tobytes() + b"\3" + np.arange(3, dtype="<i4").tobytes()
     found = read_mesh(head.encode() + body)
     assert found.mesh.faces.tolist() == [[0, 1, 2]] and found.dropped == ("free",)
@@ -111,7 +121,9 @@ def test_a_gltf_whose_buffer_is_no_file(tmp_path):
     os.mkfifo(tmp_path / "pipe")
     (tmp_path / "loop").symlink_to("loop")
     built = Built()
-    built.nodes({"mesh": built.mesh({"attributes": {"POSITION": built.array(np.eye(3, dtype=np.float32))}})})
+    built.nodes(
+        {"mesh": built.mesh({"attributes": {"POSITION": built.array(np.eye(3, dtype=np.float32))}})}
+    )
     for uri in ("pipe", "loop"):
         tree = built.tree | {"buffers": [{"uri": uri, "byteLength": 36}]}
         (tmp_path / "a.gltf").write_text(json.dumps(tree))
@@ -132,7 +144,10 @@ def test_a_gltf_is_not_granted_what_it_claims():
         read_mesh(json.dumps(tree).encode(), "gltf")
 
 
-HEADS = {"ply": ply_head(20_000_000, order=LITTLE).encode(), "off": b"# a scan\nOFF\n20000000 1 0\n"}
+HEADS = {
+    "ply": ply_head(20_000_000, order=LITTLE).encode(),
+    "off": b"# a scan\nOFF\n20000000 1 0\n",
+}
 
 
 @pytest.mark.parametrize("kind", HEADS)
@@ -141,7 +156,10 @@ def test_too_many_vertices_are_refused_from_the_head(tmp_path, kind, capsys):
     with open(path, "wb") as file:
         file.write(HEADS[kind])
         file.truncate(1_000_000)
-    with memory_below(10e6), pytest.raises(bsm.LimitError, match=r"over the limit of .*; cut it into parts"):
+    with (
+        memory_below(10e6),
+        pytest.raises(bsm.LimitError, match=r"over the limit of .*; cut it into parts"),
+    ):
         read_mesh(path)
     assert main(["encode", str(path), "-o", str(tmp_path / "a.bsm")]) == 6
     assert "cut it into parts, as bsm tile does" in capsys.readouterr().err
@@ -149,7 +167,9 @@ def test_too_many_vertices_are_refused_from_the_head(tmp_path, kind, capsys):
 
 def test_an_npz_of_too_many_vertices(tmp_path):
     moving(tmp_path / "a.npz", 0, 1000)
-    with pytest.raises(bsm.LimitError, match="vertices = 1,000 is over the limit of 999; cut it into parts"):
+    with pytest.raises(
+        bsm.LimitError, match="vertices = 1,000 is over the limit of 999; cut it into parts"
+    ):
         sequence_in(str(tmp_path / "a.npz"), limits=Limits(vertices=999))
 
 
@@ -174,7 +194,9 @@ def test_a_3mf_file_is_read_as_a_whole_or_not_at_all(tmp_path):
     assert len(read_mesh(path).mesh.faces) == 9
     loop = '<object id="1"><components><component objectid="1"/></components></object>'
     path.write_bytes(three_mf(loop, '<item objectid="1"/>'))
-    with pytest.raises(FormatError, match=r"lib3mf cannot read this 3MF file: (?!.*(Error|Exception))"):
+    with pytest.raises(
+        FormatError, match=r"lib3mf cannot read this 3MF file: (?!.*(Error|Exception))"
+    ):
         read_mesh(path)
     path.write_bytes(three_mf(chained_objects(1), ""))
     with pytest.raises(MeshError, match="places no object"):
@@ -246,7 +268,9 @@ def archive_of(**arrays):
 def test_arrays_of_an_npz_are_bounded(name):
     mesh = torus(6, 6)
     arrays = {"positions": mesh.positions, "faces": mesh.faces}
-    arrays[name] = np.zeros(30_000_000, np.uint8) if name == "metadata" else np.zeros((2_000_000, 3))
+    arrays[name] = (
+        np.zeros(30_000_000, np.uint8) if name == "metadata" else np.zeros((2_000_000, 3))
+    )
     data = archive_of(**arrays)
     with memory_below(SMALL.memory_for(0, len(data))), suppress(LimitError):
         assert read_mesh(data, "npz", SMALL).dropped == (name,)
@@ -316,7 +340,14 @@ EXPECTED = {
 def read_all(paths):
     """Read each file in a process of its own, of limited time and memory: what came of it, by name."""
     single = {**os.environ, "OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
-    done = python("-c", PROGRAM, *paths, timeout=20 * SECONDS, preexec_fn=bound("RLIMIT_AS", BYTES), env=single)
+    done = python(
+        "-c",
+        PROGRAM,
+        *paths,
+        timeout=20 * SECONDS,
+        preexec_fn=bound("RLIMIT_AS", BYTES),
+        env=single,
+    )
     assert done.returncode == 0, done.stderr
     return {Path(path).name: result for path, result in map(json.loads, done.stdout.splitlines())}
 

@@ -33,19 +33,34 @@ TRIANGLE = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
 def same(first, second):
     one, other = first.mesh, second.mesh
     assert np.array_equal(one.positions, other.positions) and np.array_equal(one.faces, other.faces)
-    assert dict(one.metadata) == dict(other.metadata) and (first.notes, first.dropped) == (second.notes, second.dropped)
+    assert dict(one.metadata) == dict(other.metadata) and (first.notes, first.dropped) == (
+        second.notes,
+        second.dropped,
+    )
     for a, b in zip(one.attributes, other.attributes, strict=True):
-        assert (a.name, a.domain, a.semantic, a.values.dtype) == (b.name, b.domain, b.semantic, b.values.dtype)
+        assert (a.name, a.domain, a.semantic, a.values.dtype) == (
+            b.name,
+            b.domain,
+            b.semantic,
+            b.values.dtype,
+        )
         assert np.array_equal(a.values, b.values)
         assert (a.indices is None and b.indices is None) or np.array_equal(a.indices, b.indices)
 
 
 @pytest.mark.parametrize("kind", [*MESH_FORMATS, "glb"])
 def test_the_mesh_is_the_same(kind, tmp_path):
-    colors = bsm.Attribute("color", np.arange(3 * 2400, dtype=np.uint8).reshape(-1, 3), "vertex", "color")
-    places = bsm.Attribute("texcoord", np.random.default_rng(0).random((7200, 2)), "corner", "texcoord")
+    colors = bsm.Attribute(
+        "color", np.arange(3 * 2400, dtype=np.uint8).reshape(-1, 3), "vertex", "color"
+    )
+    places = bsm.Attribute(
+        "texcoord", np.random.default_rng(0).random((7200, 2)), "corner", "texcoord"
+    )
     mesh = torus(40, 30)
-    attributes = (replace(colors, values=colors.values[: len(mesh.positions)]), replace(places, indices=None))
+    attributes = (
+        replace(colors, values=colors.values[: len(mesh.positions)]),
+        replace(places, indices=None),
+    )
     mesh = replace(mesh, attributes=attributes if kind != "off" else (), metadata={"unit": "mm"})
     bsm.save(mesh, tmp_path / f"a.{kind}")
     same(read_mesh(tmp_path / f"a.{kind}", isolated=True), read_mesh(tmp_path / f"a.{kind}"))
@@ -54,7 +69,15 @@ def test_the_mesh_is_the_same(kind, tmp_path):
 
 
 def test_errors_are_the_same(tmp_path):
-    for bad in (b"", b"v 0 0 0\n", b"solid", b"BSM", TRIANGLE + b"f 9 9 9\n", tmp_path / "none.ply", tmp_path):
+    for bad in (
+        b"",
+        b"v 0 0 0\n",
+        b"solid",
+        b"BSM",
+        TRIANGLE + b"f 9 9 9\n",
+        tmp_path / "none.ply",
+        tmp_path,
+    ):
         with pytest.raises((bsm.BsmError, OSError)) as plain:
             read_mesh(bad)
         with pytest.raises(type(plain.value)) as apart:
@@ -105,7 +128,11 @@ def _fresh():
         ("os._exit(3)", FormatError, "left no mesh"),
         ("raise KeyError(here)", FormatError, "KeyError"),
         ("import time; time.sleep(99)", LimitError, "more than 1 s$"),
-        ("import time; __import__('signal').signal(14, 1); time.sleep(99)  # sleep", LimitError, "more than 1 s$"),
+        (
+            "import time; __import__('signal').signal(14, 1); time.sleep(99)  # sleep",
+            LimitError,
+            "more than 1 s$",
+        ),
         ("os.kill(os.getpid(), 19)  # a sleep without end", LimitError, "more than 1 s$"),
     ],
 )
@@ -114,7 +141,9 @@ def test_the_parent_goes_on(act, error, words, monkeypatch, tmp_path):
     monkeypatch.setattr(isolation, "_PATIENCE", 1 if "sleep" in act else 1000)
     for _ in range(2):
         with pytest.raises(error, match=words):
-            read_mesh(TRIANGLE, limits=replace(Limits.service(), most_work=0.0 if "sleep" in act else 1e8))
+            read_mesh(
+                TRIANGLE, limits=replace(Limits.service(), most_work=0.0 if "sleep" in act else 1e8)
+            )
 
 
 def multiplied(kind):
@@ -124,42 +153,87 @@ def multiplied(kind):
     if kind == "dae":  # each node has the one before it twice
         return of_size(dict(uses())["dae, nodes of nodes"], 4000).data
     level = 'def "a{0}" {{\ndef "l" (references = </a{1}>) {{}}\ndef "r" (references = </a{1}>) {{}}\n}}\n'.format
-    return ("#usda 1.0\n" + 'def "a0" {}\n' + "".join(level(n, n - 1) for n in range(1, 20))).encode()
+    return (
+        "#usda 1.0\n" + 'def "a0" {}\n' + "".join(level(n, n - 1) for n in range(1, 20))
+    ).encode()
 
 
-@pytest.mark.parametrize(("kind", "library"), [("3mf", "lib3mf"), ("dae", "collada"), ("usda", "pxr")])
+@pytest.mark.parametrize(
+    ("kind", "library"), [("3mf", "lib3mf"), ("dae", "collada"), ("usda", "pxr")]
+)
 def test_what_a_library_multiplies_is_ended(kind, library, tmp_path):
     pytest.importorskip(library)
     (tmp_path / f"a.{kind}").write_bytes(multiplied(kind))
     little = replace(Limits.service(), most_work=5e8, most_memory=200 << 20)
-    with pytest.raises((LimitError, FormatError)) as refused:  # usd-core ends itself where memory ends
+    # Usd-core ends itself where memory ends.
+    with pytest.raises((LimitError, FormatError)) as refused:
         read_mesh(tmp_path / f"a.{kind}", limits=little)
-    assert any(words in str(refused.value) for words in ("takes more than", "limit for its", "crashed")), refused.value
+    assert any(
+        words in str(refused.value) for words in ("takes more than", "limit for its", "crashed")
+    ), refused.value
 
 
-SOCKETS = (("AF_INET", "STREAM"), ("AF_INET6", "DGRAM"), ("AF_UNIX", "STREAM"), ("AF_NETLINK", "RAW"))
+SOCKETS = (
+    ("AF_INET", "STREAM"),
+    ("AF_INET6", "DGRAM"),
+    ("AF_UNIX", "STREAM"),
+    ("AF_NETLINK", "RAW"),
+)
 
 
-@pytest.mark.parametrize("before", ["", "landlock.close_files = lambda folders: None; "], ids=["all", "calls alone"])
+@pytest.mark.parametrize(
+    "before", ["", "landlock.close_files = lambda folders: None; "], ids=["all", "calls alone"]
+)
 def test_nothing_is_written_and_no_other_folder_read(before, monkeypatch, tmp_path):
     """By the filter of calls alone, too, since old kernels have a Landlock that knows less."""
     victim = tmp_path / "victim"
     victim.write_bytes(b"secret")
     mode, here, name = victim.stat().st_mode, os.getpid(), str(victim)
     probes = [
-        *(f"os.open({name!r}, os.{flags})" for flags in ("O_WRONLY", "O_RDWR", "O_RDONLY | os.O_TRUNC")),
+        *(
+            f"os.open({name!r}, os.{flags})"
+            for flags in ("O_WRONLY", "O_RDWR", "O_RDONLY | os.O_TRUNC")
+        ),
         f"os.open({str(tmp_path / 'new')!r}, os.O_RDONLY | os.O_CREAT)",
         *(f"socket.socket(socket.{family}, socket.SOCK_{kind})" for family, kind in SOCKETS),
-        *("os.execv('/bin/true', ['true'])", "os.fork()", "os.pipe()", "os.memfd_create('x')", "os.setsid()"),
-        *(f"os.{call}({name!r}{more})" for call, more in (("chmod", ", 0o777"), ("utime", ""), ("truncate", ", 0"))),
-        *(f"os.{call}({name!r}{more})" for call, more in (("chown", ", 1, 1"), ("unlink", ""), ("mkdir", "+'x'"))),
+        *(
+            "os.execv('/bin/true', ['true'])",
+            "os.fork()",
+            "os.pipe()",
+            "os.memfd_create('x')",
+            "os.setsid()",
+        ),
+        *(
+            f"os.{call}({name!r}{more})"
+            for call, more in (("chmod", ", 0o777"), ("utime", ""), ("truncate", ", 0"))
+        ),
+        *(
+            f"os.{call}({name!r}{more})"
+            for call, more in (("chown", ", 1, 1"), ("unlink", ""), ("mkdir", "+'x'"))
+        ),
         f"os.setxattr({name!r}, 'user.x', b'1')",
-        *(f"os.{call}" for call in (f"setpriority(0, {here}, 5)", f"sched_setaffinity({here}, [0])", "kill(0, 0)")),
+        *(
+            f"os.{call}"
+            for call in (
+                f"setpriority(0, {here}, 5)",
+                f"sched_setaffinity({here}, [0])",
+                "kill(0, 0)",
+            )
+        ),
         *(f"os.kill({number}, 0)" for number in (here, "os.getppid()", -1)),
         f"resource.prlimit({here}, resource.RLIMIT_CORE, (0, 0))",
-        *(f"number({numbers})" for numbers in ("29, 0, 4096, 0o1600", f"234, {here}, {here}, 0", "56, 17, 0, 0, 0, 0")),
-        *(f"number(56, {flags}, 0, 0, 0, 0)" for flags in (0x3D0F00, 0x10900, 0x40010900, 0x50010900)),
-        *(f"number({numbers})" for numbers in (f"72, 0, 8, {here}", "101, 16, 1", "425, 4, 0", "435, 0, 0")),
+        *(
+            f"number({numbers})"
+            for numbers in ("29, 0, 4096, 0o1600", f"234, {here}, {here}, 0", "56, 17, 0, 0, 0, 0")
+        ),
+        *(
+            f"number(56, {flags}, 0, 0, 0, 0)"
+            for flags in (0x3D0F00, 0x10900, 0x40010900, 0x50010900)
+        ),
+        *(
+            f"number({numbers})"
+            for numbers in (f"72, 0, 8, {here}", "101, 16, 1", "425, 4, 0", "435, 0, 0")
+        ),
         "number(200, 1, 0)",
     ]
     probes += [] if before else [f"open({name!r}).read()"]
@@ -174,11 +248,20 @@ def test_nothing_is_written_and_no_other_folder_read(before, monkeypatch, tmp_pa
         "raise KeyError('all were refused', dict(os.environ))",
     )
     monkeypatch.setenv("SECRET", "a key")
-    acting(monkeypatch, tmp_path, "\n    ".join(acts), f"landlock.libraries = lambda: ('/gone', *known()); {before}")
+    acting(
+        monkeypatch,
+        tmp_path,
+        "\n    ".join(acts),
+        f"landlock.libraries = lambda: ('/gone', *known()); {before}",
+    )
     with pytest.raises(FormatError, match="all were refused") as refused:
         read_mesh(TRIANGLE, isolated=True)
     assert "SECRET" not in str(refused.value)
-    assert victim.read_bytes() == b"secret" and not (tmp_path / "new").exists() and victim.stat().st_mode == mode
+    assert (
+        victim.read_bytes() == b"secret"
+        and not (tmp_path / "new").exists()
+        and victim.stat().st_mode == mode
+    )
 
 
 def test_a_refused_call_is_named(monkeypatch, tmp_path):
@@ -198,21 +281,30 @@ def test_nothing_stays(monkeypatch, tmp_path):
     assert server.returncode == -signal.SIGKILL  # waited for: no zombie
 
 
-@pytest.mark.parametrize("number", sorted(signal.valid_signals() - {signal.SIGKILL, signal.SIGSTOP}))
+@pytest.mark.parametrize(
+    "number", sorted(signal.valid_signals() - {signal.SIGKILL, signal.SIGSTOP})
+)
 def test_any_signal_that_ends_a_process_is_an_error(number):
-    assert isinstance(isolation._end_of(int(number), b"", {"seconds": 1, "memory": 1}), FormatError | LimitError)
+    assert isinstance(
+        isolation._end_of(int(number), b"", {"seconds": 1, "memory": 1}), FormatError | LimitError
+    )
 
 
 def calling(monkeypatch, tmp_path, *lines):
     """What reading does if a taken-over process runs these lines in place of a reader."""
     code = "\n".join(f"    {line}" for line in lines)
-    acting(monkeypatch, tmp_path, "pass", f"def called(asked):\n{code}\nisolation._called = called; ")
+    acting(
+        monkeypatch, tmp_path, "pass", f"def called(asked):\n{code}\nisolation._called = called; "
+    )
 
 
 TETRAHEDRON = "numpy.eye(4, 3), numpy.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]], 'int32')"
 ANSWERS = {
     "return None": (FormatError, "left no mesh"),
-    f"return Frames(({TETRAHEDRON})[1], 1, iter([({TETRAHEDRON})[0]]))": (FormatError, "left no mesh"),
+    f"return Frames(({TETRAHEDRON})[1], 1, iter([({TETRAHEDRON})[0]]))": (
+        FormatError,
+        "left no mesh",
+    ),
     "raise errors.OptionError('no')": (FormatError, "left no mesh"),
     "raise errors.FormatError('one' + chr(10) + chr(8232) + 'two' + chr(13) + 'three')": (
         FormatError,
@@ -220,24 +312,35 @@ ANSWERS = {
     ),
     "raise errors.FormatError('x' * 70000)": (FormatError, "^x{4096}$"),
     "raise errors.FormatError('x' * (90 << 20))": (FormatError, "left no mesh"),
-    "raise errors.DependencyError('pip install evil')": (bsm.DependencyError, "^a package .*: pip install 'bsm-codec"),
+    "raise errors.DependencyError('pip install evil')": (
+        bsm.DependencyError,
+        "^a package .*: pip install 'bsm-codec",
+    ),
 }
 
 
 @pytest.mark.parametrize("answer", ANSWERS)
 def test_only_what_was_asked_for_is_accepted(answer, monkeypatch, tmp_path):
-    imports = "import numpy; from bsm.bitstream import errors; from bsm.files.motion.frames import Frames"
+    imports = (
+        "import numpy; from bsm.bitstream import errors; from bsm.files.motion.frames import Frames"
+    )
     calling(monkeypatch, tmp_path, imports, answer)
     error, words = ANSWERS[answer]
     with pytest.raises(error, match=words) as refused:
         read_mesh(TRIANGLE, isolated=True)
     assert len(str(refused.value).splitlines()) == 1
     (tmp_path / "a.obj").write_bytes(TRIANGLE)
-    assert main(["encode", str(tmp_path / "a.obj"), "--untrusted", "-q"]) == (8 if error is bsm.DependencyError else 3)
+    assert main(["encode", str(tmp_path / "a.obj"), "--untrusted", "-q"]) == (
+        8 if error is bsm.DependencyError else 3
+    )
 
 
-def test_a_sequence_is_no_answer_where_a_mesh_is_asked_for_nor_a_mesh_for_a_sequence(monkeypatch, tmp_path):
-    with sequence_writer(str(tmp_path / "a.npz"), "npz", torus(4, 3).faces, 2, overwrite=True) as write:
+def test_a_sequence_is_no_answer_where_a_mesh_is_asked_for_nor_a_mesh_for_a_sequence(
+    monkeypatch, tmp_path
+):
+    with sequence_writer(
+        str(tmp_path / "a.npz"), "npz", torus(4, 3).faces, 2, overwrite=True
+    ) as write:
         for _ in range(2):
             write(torus(4, 3).positions)
     plain = "import numpy; from bsm import MeshFile, TriangleMesh"
@@ -246,7 +349,9 @@ def test_a_sequence_is_no_answer_where_a_mesh_is_asked_for_nor_a_mesh_for_a_sequ
         open_sequence(tmp_path / "a.npz", isolated=True)
 
 
-@pytest.mark.parametrize(("written", "kept", "fits"), [(300, 200, True), (300, 450, False), (420, 0, False)])
+@pytest.mark.parametrize(
+    ("written", "kept", "fits"), [(300, 200, True), (300, 450, False), (420, 0, False)]
+)
 def test_an_answer_counts_as_memory(written, kept, fits, monkeypatch, tmp_path):
     """Of 700 MB, an answer takes half at most, and the process has so much less from then on."""
     lines = (
@@ -284,9 +389,15 @@ def sound_answers():
     """What processes leave: a mesh, frames with one mesh and with several, and errors."""
     bare = torus(4, 3)
     rows = np.arange(len(bare.positions))
-    corners = bsm.Attribute("texcoord", np.linspace(0, 1, 10).reshape(5, 2), "corner", "texcoord", bare.faces % 5)
+    corners = bsm.Attribute(
+        "texcoord", np.linspace(0, 1, 10).reshape(5, 2), "corner", "texcoord", bare.faces % 5
+    )
     attributes = (bsm.Attribute("color", rows[:, None].astype(np.uint8), semantic="color"), corners)
-    mesh = replace(bare, attributes=attributes, metadata={"unit": "mm", "n": -(1 << 40), "x": 0.5, "b": b"\xff\0"})
+    mesh = replace(
+        bare,
+        attributes=attributes,
+        metadata={"unit": "mm", "n": -(1 << 40), "x": 0.5, "b": b"\xff\0"},
+    )
     frames = [bare.positions + number for number in range(3)]
     meshes = [replace(mesh, positions=positions) for positions in frames]
     answers = [
@@ -360,7 +471,11 @@ def test_what_a_process_leaves_is_within_limits():
         return Frames(mesh.faces, 2, iter([mesh.positions] * 2), meshes=iter([mesh] * 2))
 
     with isolation.shared(b"") as memory:
-        for found, name in ((MeshFile(mesh), "vertices"), (frames(), "vertices"), (frames(), "frames")):
+        for found, name in (
+            (MeshFile(mesh), "vertices"),
+            (frames(), "vertices"),
+            (frames(), "frames"),
+        ):
             leave(memory, found)
             with pytest.raises(LimitError, match=name):
                 found_in(memory, 1 << 24, replace(Limits(), **{name: 1}), (*MESH, *FRAMES))
@@ -377,13 +492,21 @@ def frames(found):
     return meshes, [mesh.positions for mesh in meshes] if meshes else list(found.frames)
 
 
-@pytest.mark.parametrize(("name", "runs"), [("a.npz", False), ("a.glb", False), ("a/", False), ("a/", True)])
+@pytest.mark.parametrize(
+    ("name", "runs"), [("a.npz", False), ("a.glb", False), ("a/", False), ("a/", True)]
+)
 def test_sequences_are_the_same(name, runs, tmp_path):
     mesh = torus(12, 8)
     shades = [np.full((len(mesh.positions), 3), 20 * number, np.uint8) for number in range(4)]
-    shared = Shared(lambda: (bsm.Attribute("color", shades.pop(), "vertex", "color"),)) if name == "a/" else Shared()
+    shared = (
+        Shared(lambda: (bsm.Attribute("color", shades.pop(), "vertex", "color"),))
+        if name == "a/"
+        else Shared()
+    )
     path = str(tmp_path / name)
-    with sequence_writer(path, Path(name).suffix[1:] or "ply", mesh.faces, 4, overwrite=True, shared=shared) as write:
+    with sequence_writer(
+        path, Path(name).suffix[1:] or "ply", mesh.faces, 4, overwrite=True, shared=shared
+    ) as write:
         for number in range(4):
             write(mesh.positions * (1.0 + number))
     wanted = Wanted(runs=runs)
@@ -400,7 +523,10 @@ def test_sequences_are_the_same(name, runs, tmp_path):
     assert np.array_equal(plain.faces, apart.faces) and dict(plain.metadata) == dict(apart.metadata)
     if not runs:
         assert main(["encode", path, "--kg", "1", "-o", str(tmp_path / "p.bsm"), "-q"]) == 0
-        assert main(["encode", path, "--kg", "1", "-o", str(tmp_path / "u.bsm"), "-q", "--untrusted"]) == 0
+        assert (
+            main(["encode", path, "--kg", "1", "-o", str(tmp_path / "u.bsm"), "-q", "--untrusted"])
+            == 0
+        )
         assert (tmp_path / "p.bsm").read_bytes() == (tmp_path / "u.bsm").read_bytes()
     with pytest.raises(LimitError):
         open_sequence(path, request=wanted, limits=replace(Limits.service(), vertices=10))
@@ -417,5 +543,7 @@ def test_the_command_reads_untrusted_files_behind_the_wall(tmp_path):
     bsm.save(torus(20, 16), tmp_path / "a.ply")
     assert main(["encode", str(tmp_path / "a.ply"), "--untrusted", "-q"]) == 0
     assert bsm.decode(tmp_path / "a.bsm").faces.shape == (640, 3)
-    (tmp_path / "b.ply").write_bytes(b"ply\nformat ascii 1.0\nelement vertex 2000000\nelement face 1\nend_header\n")
+    (tmp_path / "b.ply").write_bytes(
+        b"ply\nformat ascii 1.0\nelement vertex 2000000\nelement face 1\nend_header\n"
+    )
     assert main(["encode", str(tmp_path / "b.ply"), "--untrusted", "-q"]) == 6

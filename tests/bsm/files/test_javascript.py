@@ -18,11 +18,14 @@ from tests.shapes import file_of, ply_head, tetrahedron, torus
 
 ROOT = Path(__file__).parents[3]
 WEB = ROOT / "web"
-ABOUT_FILES = re.compile(r"no such file|not in the folder|Left out: colors and textures of materials")
+ABOUT_FILES = re.compile(
+    r"no such file|not in the folder|Left out: colors and textures of materials"
+)
 READ = ("obj", "ply", "stl")
 
 pytestmark = pytest.mark.skipif(
-    shutil.which("node") is None or not (WEB / "node_modules/three").is_dir(), reason="needs node, and npm ci in web"
+    shutil.which("node") is None or not (WEB / "node_modules/three").is_dir(),
+    reason="needs node, and npm ci in web",
 )
 
 
@@ -65,10 +68,14 @@ def by_python(path):
 
 def by_javascript(paths):
     done = subprocess.run(
-        ["node", Path(__file__).with_name("reading.mjs"), WEB, *paths], capture_output=True, text=True, check=False
+        ["node", Path(__file__).with_name("reading.mjs"), WEB, *paths],
+        capture_output=True,
+        text=True,
+        check=False,
     )
     assert done.returncode == 0, done.stderr
-    found = [json.loads(line) for line in done.stdout.rstrip("\n").split("\n")]  # names may have other breaks
+    # Names may have other breaks.
+    found = [json.loads(line) for line in done.stdout.rstrip("\n").split("\n")]
     for each in found:
         if "error" not in each:
             each["notes"] = sorted(note for note in each["notes"] if not ABOUT_FILES.search(note))
@@ -80,7 +87,9 @@ def require_same(paths):
     read = 0
     for path, theirs in zip(paths, by_javascript(paths), strict=True):
         ours = by_python(path)
-        assert ("error" in ours) == ("error" in theirs), f"{path}: {ours.get('error')} {theirs.get('error')}"
+        assert ("error" in ours) == ("error" in theirs), (
+            f"{path}: {ours.get('error')} {theirs.get('error')}"
+        )
         if "error" not in ours:
             read += 1
             assert theirs | ours == theirs, path
@@ -101,7 +110,8 @@ TEXTS = {
     "bowtie": CORNERS + "f 1 3 2 4\n",
     "line": "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 2 2 0\nv 1.5 .5 0\nv 0 2 0\nf 1 2 3 4 5 6\n",
     "negative": CORNERS + "vt 0 0\nvt 1 0\nf -5/-2 -4/-1 -3/-1\nv 9 9 9\nf -1 1 2\n",
-    "texcoords": CORNERS + "vt 0 0 .5\nvt .25\nvn 0 0 1\nf 1/1/1 2/2/1 3/1/1 4//1\nf 1/1 2/2 5\nf 1//1 2 5\n",
+    "texcoords": CORNERS
+    + "vt 0 0 .5\nvt .25\nvn 0 0 1\nf 1/1/1 2/2/1 3/1/1 4//1\nf 1/1 2/2 5\nf 1//1 2 5\n",
     "colors": "v 0 0 0 1 0 0\nv 1 0 0 0 .2 0\nv 0 1 0 0 0 1\nf 1 2 3\n",
     "bytes": "v 0 0 0 255 0 0\nv 1 0 0 0 51 0\nv 0 1 0 0 0 7\nf 1 2 3\n",
     "alpha": "v 0 0 0 1 0 0 .5\nv 1 0 0 0 .213 0 1\nv 0 1 0 0 0 1 1\nf 1 2 3\n",
@@ -110,7 +120,9 @@ TEXTS = {
     + CORNERS
     + "usemtl r\nf 1 2 3\ns 1\nf 1 3 4\no two\nusemtl g\nf 1 2 5\n",
     "many": CORNERS + "".join(f"o part {i}\nf 1 2 {3 + i % 3}\n" for i in range(20)),
-    "remarks": '# meta unit: "mm"\n#meta x\n' + CORNERS + "f 1 2 3 # the first\nl 1 2\ncurv 1\n#MRGB 00\n",
+    "remarks": '# meta unit: "mm"\n#meta x\n'
+    + CORNERS
+    + "f 1 2 3 # the first\nl 1 2\ncurv 1\n#MRGB 00\n",
     "continued": "v 0 0 \\\n0\r\nv 1 0 0\rv 0 1 0\n\n# no \\\nf 1 2 \\\n 3\n",
     "thin": CORNERS + "f 1 2\nf 1\nf 1 2 3\n",
     "numbers": "v 0 0 0\nv 1e-3 +.5 1.\nv 0 1 1E2\nf 1 2 3\n",
@@ -118,7 +130,8 @@ TEXTS = {
     "all special": "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn nan 0 1\nf 1//1 2//1 3//1\n",
     "no colors": "v 0 0 0 255 0 0\nv 1 0 0 nan nan nan\nv 0 1 0 0 0 51\nf 1 2 3\n",
     "no shares": "v 0 0 0 1 0 .2\nv 1 0 0 0 inf 0\nv 0 1 0 0 0 1\nf 1 2 3\n",
-    "no texcoords": CORNERS + "vt nan .1\nvt .3 .4\nvt .7 .2\nvt .25 -inf\nf 1/1 2/2 3/3\nf 1/4 3/3 4/2\n",
+    "no texcoords": CORNERS
+    + "vt nan .1\nvt .3 .4\nvt .7 .2\nvt .25 -inf\nf 1/1 2/2 3/3\nf 1/4 3/3 4/2\n",
     "objects again": CORNERS + "o a\nf 1 2 3\no b\nf 1 2 4\no a\nf 1 2 5\no c\no b\nf 2 3 4\n",
     "fine": "v 0.1 0.2 0.3\nv 1000000.123456 0 0\nv 0 1 0\nf 1 2 3\n",
     "infinite": "v 0 0 inf\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
@@ -133,7 +146,8 @@ TEXTS = {
     "no faces": CORNERS,
     "values outside": CORNERS + "vt 0 0\nf 1/1 2/2 3/1\n",
     "wide blank": "v 0 0 0\nv 1\u00a00 0\nv 0 1 0\nf 1 2 3\n",
-    "wide blanks in names": CORNERS + "usemtl a\u00a0b\nf 1 2 3\nusemtl c\u3000\u2028\x85\nf 1 3 4\n",
+    "wide blanks in names": CORNERS
+    + "usemtl a\u00a0b\nf 1 2 3\nusemtl c\u3000\u2028\x85\nf 1 3 4\n",
     "words of objects": CORNERS + "constructor a\n__proto__ b\nf 1 2 3\n",
     "hole": "v 0 0 0\nv 4 0 0\nv 4 4 0\nv 0 4 0\nv 1 1 0\nv 1 3 0\nv 3 3 0\nv 3 1 0\nf 1 2 3 4 1 5 6 7 8 5\n",
     "latin": "g \u00e9t\u00e9\n" + CORNERS + "f 1 2 3\n",
@@ -157,7 +171,9 @@ def test_random_polygons(tmp_path):
         for _ in range(20):
             size = int(random.integers(4, 100))
             angles = np.sort(random.random(size)) * 2 * np.pi
-            flat = np.column_stack([np.cos(angles), np.sin(angles)]) * (0.2 + random.random((size, 1)))
+            flat = np.column_stack([np.cos(angles), np.sin(angles)]) * (
+                0.2 + random.random((size, 1))
+            )
             if number % 2:
                 flat = np.rint(8 * flat)
             points = flat @ random.normal(size=(2, 3))
@@ -181,7 +197,10 @@ def plys():
     yield "wrong", head + square + "3 0 1 2 9 8 7 1 0 5\n3 0 2 3 0 0 0 0 -1\n"
     yield "fans", ply_head(5, 1) + square + ".5 .25 0\n" + "5 0 1 2 4 3\n"
     comments = 'comment by me\ncomment meta unit: "mm"\nobj_info x\ncomment TextureFile a.png\nelement vertex'
-    yield "comments", ply_head(3, 1).replace("element vertex", comments) + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"
+    yield (
+        "comments",
+        ply_head(3, 1).replace("element vertex", comments) + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n",
+    )
     yield "points", ply_head(3, 0) + "0 0 0\n1 0 0\n0 1 0\n"
     yield "short", ply_head(3, 2) + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"
     yield (
@@ -196,13 +215,17 @@ def plys():
         yield f"{kind == '<'}", head.encode() + body
         yield f"cut_{kind == '<'}", head.encode() + body[:-5]
     yield "marked", "\ufeff" + ply_head(3, 1) + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"
-    yield "unknown", ply_head(3, 1).replace("float x", "toString x") + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"
+    yield (
+        "unknown",
+        ply_head(3, 1).replace("float x", "toString x") + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n",
+    )
     more = "property float constructor\nproperty float __proto__\n"
     yield "objects", ply_head(3, 1, more=more) + "0 0 0 1 2\n1 0 0 3 4\n0 1 0 5 6\n3 0 1 2\n"
     for number in ("7", "-7", "4000000000", "9007199254740993"):
         yield (
             f"long{number}",
-            ply_head(3, 1, more="property int64 id\n") + f"0 0 0 {number}\n1 0 0 1\n0 1 0 2\n3 0 1 2\n",
+            ply_head(3, 1, more="property int64 id\n")
+            + f"0 0 0 {number}\n1 0 0 1\n0 1 0 2\n3 0 1 2\n",
         )
     yield from plys_of_colors()
     yield from plys_of_textures()
@@ -216,12 +239,25 @@ def plys_of_colors():
         "bytes": "0 9 255", "words": "0 256 65535", "more": "0 1 65536", "less": "-1 0 3",
         "shares": "0 .2 1", "floats": "0 51 255", "wide": "0 .5 300", "none": "nan 9 255", "nowhere": "nan inf nan",
     }  # fmt: skip
-    for kind in ("uchar", "char", "ushort", "short", "uint", "int", "int64", "uint64", "float", "double"):
+    for kind in (
+        "uchar",
+        "char",
+        "ushort",
+        "short",
+        "uint",
+        "int",
+        "int64",
+        "uint64",
+        "float",
+        "double",
+    ):
         more = "".join(f"property {kind} {name}\n" for name in ("red", "green", "blue"))
         for name, row in rows.items():
             body = f"0 0 0 {row}\n1 0 0 255 255 255\n0 1 0 0 0 0\n3 0 1 2\n"
             yield f"{kind} {name}", ply_head(3, 1, more=more) + body
-    more = "".join(f"property float {name}\n" for name in ("red", "green", "blue", "alpha", "quality"))
+    more = "".join(
+        f"property float {name}\n" for name in ("red", "green", "blue", "alpha", "quality")
+    )
     body = "0 0 0 1 0 0 9000 .5\n1 0 0 0 .2 0 1 nan\n0 1 0 0 0 1 1 .25\n3 0 1 2\n"
     yield "wild alpha", ply_head(3, 1, more=more) + body
     yield "no alpha", ply_head(3, 1, more=more) + body.replace("9000", "nan")
@@ -239,7 +275,12 @@ def plys_of_textures():
     numbers = "".join(f"property int {name}\n" for name in ("material_index", "texnumber"))
     square = "0 0 0 0 0\n1 0 0 1 0\n1 1 0 1 1\n0 1 0 0 nan\n"
     for comments in ("", images, f"{images}{said}"):
-        for u, v in (("u", "v"), ("s", "t"), ("texture_u", "texture_v"), ("texture_s", "texture_t")):
+        for u, v in (
+            ("u", "v"),
+            ("s", "t"),
+            ("texture_u", "texture_v"),
+            ("texture_s", "texture_t"),
+        ):
             more = f"property float {u}\nproperty float {v}\n"
             head = ply_head(4, 2, more=more).replace("element vertex", f"{comments}element vertex")
             head = head.replace("end_header", f"{of_corners}{numbers}end_header")
@@ -266,7 +307,9 @@ def test_stls(tmp_path):
     two = f"solid a\n{facet.format(0)}endsolid a\nsolid b c\n{facet.format(-0.0)}{facet.format(2)}endsolid\n"
     binary = file_of(torus(), "stl")
     cube = np.array([[int(bit) for bit in f"{i:03b}"] for i in range(8)])
-    sides = np.array([[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]])
+    sides = np.array(
+        [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
+    )
     body = cube[sides[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)]
     bodies = [body + place for place in ((0, 0, 0), (1, 0, 0), (1, 1, 1), (2, 1, 0), (0, 0, 0))]
     parts = [np.add(body[:7], (0, 3, 0)), np.add(body[3:], (1, 3, 0))]  # that are open
@@ -294,7 +337,9 @@ def test_stls(tmp_path):
         "header": b"solid by me".ljust(80, b"\0") + binary[80:],
         "nothing": b"",
     }
-    assert require_same(written(tmp_path, {f"{name}.stl": data for name, data in files.items()})) >= 8
+    assert (
+        require_same(written(tmp_path, {f"{name}.stl": data for name, data in files.items()})) >= 8
+    )
 
 
 @pytest.mark.parametrize("kind", READ)
@@ -330,9 +375,15 @@ def scene(*primitives, nodes=None, **more):
             "componentType": kinds[values.dtype.name],
             "type": "SCALAR" if values.ndim == 1 else f"VEC{values.shape[1]}",
         }
-        limits = {"min": values.min(0).tolist(), "max": values.max(0).tolist()} if values.ndim == 2 else {}
+        limits = (
+            {"min": values.min(0).tolist(), "max": values.max(0).tolist()}
+            if values.ndim == 2
+            else {}
+        )
         whole = {"normalized": True} if values.ndim == 2 and values.dtype.kind == "u" else {}
-        accessors.append({"bufferView": len(views) - 1, "count": len(values), **kind, **limits, **whole})
+        accessors.append(
+            {"bufferView": len(views) - 1, "count": len(values), **kind, **limits, **whole}
+        )
         return len(accessors) - 1
 
     shared = {}
@@ -343,9 +394,16 @@ def scene(*primitives, nodes=None, **more):
             for name, a in given.items()
         }
         indices = {"indices": numbers.pop("indices")} if "indices" in numbers else {}
-        meshes.append({"name": f"mesh{len(meshes)}", "primitives": [{"attributes": numbers, **indices}]})
+        meshes.append(
+            {"name": f"mesh{len(meshes)}", "primitives": [{"attributes": numbers, **indices}]}
+        )
     nodes = nodes or [{"mesh": i} for i in range(len(meshes))]
-    tree = {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [*range(len(nodes))]}], "nodes": nodes}
+    tree = {
+        "asset": {"version": "2.0"},
+        "scene": 0,
+        "scenes": [{"nodes": [*range(len(nodes))]}],
+        "nodes": nodes,
+    }
     tree |= {
         "meshes": meshes,
         "accessors": accessors,
@@ -355,7 +413,12 @@ def scene(*primitives, nodes=None, **more):
     }
     text = json.dumps(tree).encode()
     text += b" " * (-len(text) % 4)
-    chunks = struct.pack("<I4s", len(text), b"JSON") + text + struct.pack("<I4s", len(body), b"BIN\0") + body
+    chunks = (
+        struct.pack("<I4s", len(text), b"JSON")
+        + text
+        + struct.pack("<I4s", len(body), b"BIN\0")
+        + body
+    )
     return struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks
 
 
@@ -364,7 +427,10 @@ def test_scenes(tmp_path):
     corners = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], np.float32)
     faces = np.array([0, 1, 2, 0, 3, 1], np.uint16)
     plain = {"POSITION": corners, "indices": faces}
-    flat, bytes_ = np.linspace(0, 1, 8, dtype=np.float32).reshape(4, 2), np.arange(16, dtype=np.uint8).reshape(4, 4)
+    flat, bytes_ = (
+        np.linspace(0, 1, 8, dtype=np.float32).reshape(4, 2),
+        np.arange(16, dtype=np.uint8).reshape(4, 4),
+    )
     full = {
         **plain,
         "TEXCOORD_0": flat,
@@ -374,17 +440,27 @@ def test_scenes(tmp_path):
     }
     narrow = {**plain, "COLOR_0": bytes_[:, :3].astype(np.float32) / 255}
     shared = {"POSITION": np.tile(corners, (30, 1)), "NORMAL": np.tile(corners, (30, 1))}
-    parts = [{**shared, "indices": np.array([4 * k, 4 * k + 1, 4 * k + 2], np.uint16)} for k in (7, 3)]
+    parts = [
+        {**shared, "indices": np.array([4 * k, 4 * k + 1, 4 * k + 2], np.uint16)} for k in (7, 3)
+    ]
     places = np.array([[5, 0, 0], [0, 5, 0], [0, 0, 5]], np.float32)
-    copies = [{"mesh": 0, "extensions": {"EXT_mesh_gpu_instancing": {"attributes": {"TRANSLATION": 2}}}}]
-    instanced = scene({**plain, "_PLACES": places}, nodes=copies, extensionsUsed=["EXT_mesh_gpu_instancing"])
+    copies = [
+        {"mesh": 0, "extensions": {"EXT_mesh_gpu_instancing": {"attributes": {"TRANSLATION": 2}}}}
+    ]
+    instanced = scene(
+        {**plain, "_PLACES": places}, nodes=copies, extensionsUsed=["EXT_mesh_gpu_instancing"]
+    )
     files = {
         "lacking": scene(full, plain, narrow),
         "shared": scene(*parts),
         "copies": instanced.replace(b', "_PLACES": 2', b"              "),
-        "turned": scene(plain, nodes=[{"mesh": 0, "scale": [1, -2, 1], "rotation": [0.5, 0.5, 0.5, 0.5]}]),
+        "turned": scene(
+            plain, nodes=[{"mesh": 0, "scale": [1, -2, 1], "rotation": [0.5, 0.5, 0.5, 0.5]}]
+        ),
         "outside": scene({**plain, "indices": faces + np.uint16(2)}, plain),
-        "infinite": scene({**plain, "POSITION": np.where(corners > 0, np.float32(np.inf), corners)}),
+        "infinite": scene(
+            {**plain, "POSITION": np.where(corners > 0, np.float32(np.inf), corners)}
+        ),
         "old": scene(plain).replace(b'"2.0"', b'"1.0"'),
         "older": scene(plain)[:4] + b"\1" + scene(plain)[5:],
         "circle": scene(plain, nodes=[{"mesh": 0, "children": [1]}, {"children": [0]}]),
@@ -395,26 +471,36 @@ def test_scenes(tmp_path):
     read = 0
     for path, theirs in zip(paths, by_javascript(paths), strict=True):
         ours = by_python(path)
-        assert ("error" in ours) == ("error" in theirs), f"{path}: {ours.get('error')} {theirs.get('error')}"
+        assert ("error" in ours) == ("error" in theirs), (
+            f"{path}: {ours.get('error')} {theirs.get('error')}"
+        )
         if "error" in ours:
             assert not re.search("THREE|undefined", theirs["error"])
             continue
         read += 1
         for key in ("counts", "positions", "faces"):
             assert ours[key] == theirs[key], path
-        shown = [[(a["name"], a["semantic"], a["shape"]) for a in each["attributes"]] for each in (ours, theirs)]
+        shown = [
+            [(a["name"], a["semantic"], a["shape"]) for a in each["attributes"]]
+            for each in (ours, theirs)
+        ]
         assert sorted(shown[0]) == sorted(shown[1]), path
         assert {note for note in ours["notes"] if "parts" in note} <= {*theirs["notes"]}, path
-        assert all("TANGENT of attributes" in "".join(each["notes"]) for each in (ours, theirs)) == (
-            path.stem == "lacking"
-        )
+        assert all(
+            "TANGENT of attributes" in "".join(each["notes"]) for each in (ours, theirs)
+        ) == (path.stem == "lacking")
     assert read == 4
 
 
 @pytest.mark.real
 def test_assets(meshes):
     most = 10_000_000  # bytes: of larger ones there are some alike
-    found = [path for kind in READ for path in sorted(meshes.rglob(f"*.{kind}")) if path.stat().st_size < most]
+    found = [
+        path
+        for kind in READ
+        for path in sorted(meshes.rglob(f"*.{kind}"))
+        if path.stat().st_size < most
+    ]
     assert require_same(found) > 10
     scenes = sorted(meshes.rglob("*.glb"))
     for path, theirs in zip(scenes, by_javascript(scenes), strict=True):

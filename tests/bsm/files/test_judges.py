@@ -32,22 +32,33 @@ def tables():
             color = [40 * number, 255 - 40 * number, 7 * number + 3, 255 - 30 * number]
             place = [(a + 1) / 8 + number / 8, (b + 1) / 4]
             gap = np.nan if number == 2 and corner == 1 else number + corner / 8
-            rows.append([*normal, *color, *place, number * 1.5, number - 3, *(point * number / 4), gap])
+            rows.append(
+                [*normal, *color, *place, number * 1.5, number - 3, *(point * number / 4), gap]
+            )
         for half, (b, c) in enumerate([(1, 2), (2, 3)]):
             faces.append([begin, begin + b, begin + c])
-            of_faces.append([200 - 20 * number, 9 * number, 60 * half, number / 2 + half, 10 * number + half])
+            of_faces.append(
+                [200 - 20 * number, 9 * number, 60 * half, number / 2 + half, 10 * number + half]
+            )
     return np.array(points), np.array(rows), np.array(faces), np.array(of_faces)
 
 
 def source(path):
     """Write the cube as a PLY, by hand."""
     points, rows, faces, of_faces = tables()
-    head = ["ply", "format ascii 1.0", f"element vertex {len(points)}", *(f"property float {axis}" for axis in "xyz")]
+    head = [
+        "ply",
+        "format ascii 1.0",
+        f"element vertex {len(points)}",
+        *(f"property float {axis}" for axis in "xyz"),
+    ]
     head += [f"property {TYPES.get(name, 'float')} {name}" for name in VERTEX]
     head += [f"element face {len(faces)}", "property list uchar int vertex_indices"]
     head += [f"property {kind} {name}" for name, kind in FACE.items()]
     lines = [" ".join(f"{value:g}" for value in (*point, *row)) for point, row in zip(points, rows)]
-    lines += [" ".join(f"{value:g}" for value in (3, *face, *row)) for face, row in zip(faces, of_faces)]
+    lines += [
+        " ".join(f"{value:g}" for value in (3, *face, *row)) for face, row in zip(faces, of_faces)
+    ]
     path.write_text("\n".join([*head, "end_header", *lines, ""]))
     return path
 
@@ -86,20 +97,28 @@ def in_order(found):
     faces = np.repeat(corners.mean(axis=1)[:, None], 3, axis=1)
     keys = np.round(np.concatenate([faces, corners], axis=2).reshape(-1, 6), 4)
     order = np.lexsort(keys.T)
-    return {name: np.asarray(values, np.float64).reshape(len(keys), -1)[order] for name, values in found.items()}
+    return {
+        name: np.asarray(values, np.float64).reshape(len(keys), -1)[order]
+        for name, values in found.items()
+    }
 
 
 def corners_of(faces, points, of_points, of_faces):
     found = {"position": np.asarray(points)[faces]}
     found |= {name: np.asarray(values)[faces] for name, values in of_points.items()}
-    return found | {name: np.repeat(np.asarray(v)[:, None], 3, axis=1) for name, v in of_faces.items()}
+    return found | {
+        name: np.repeat(np.asarray(v)[:, None], 3, axis=1) for name, v in of_faces.items()
+    }
 
 
 def with_alpha(found, *names):
     """Colors as shares, and their opacity by itself."""
     for name in names:
         if name in found and found[name].shape[-1] == 4:
-            found |= {name: found[name][..., :3], **({"alpha": found[name][..., 3:]} if name == "color" else {})}
+            found |= {
+                name: found[name][..., :3],
+                **({"alpha": found[name][..., 3:]} if name == "color" else {}),
+            }
     return found
 
 
@@ -111,18 +130,28 @@ def by_ply(path):
     raw = trimesh.load(path, process=False).metadata["_ply_raw"]
     vertex, face = raw["vertex"]["data"], raw["face"]["data"]
     columns = {name: np.asarray(vertex[name]).reshape(-1) for name in raw["vertex"]["properties"]}
-    of_points = {name: np.column_stack([columns[member] for member in group]) for name, group in GROUPS.items()}
+    of_points = {
+        name: np.column_stack([columns[member] for member in group])
+        for name, group in GROUPS.items()
+    }
     of_points["color"] = of_points["color"] / 255
     rows = np.asarray(face)
-    faces = np.array([row[1] for row in rows["vertex_indices"].tolist()]) if rows.dtype.names else face
+    faces = (
+        np.array([row[1] for row in rows["vertex_indices"].tolist()]) if rows.dtype.names else face
+    )
     shades = np.column_stack([rows[name].reshape(-1) for name in ("red", "green", "blue")]) / 255
-    of_faces = {"face_color": shades, **{f"face_{n}": rows[n].reshape(-1, 1) for n in ("quality", "label")}}
+    of_faces = {
+        "face_color": shades,
+        **{f"face_{n}": rows[n].reshape(-1, 1) for n in ("quality", "label")},
+    }
     points = np.column_stack([columns[axis] for axis in "xyz"])
     # MeshLab shows the same.
     meshes = pymeshlab.MeshSet()
     meshes.load_new_mesh(str(path))
     shown = meshes.current_mesh()
-    assert np.allclose(shown.vertex_matrix(), points) and np.allclose(shown.vertex_normal_matrix(), of_points["normal"])
+    assert np.allclose(shown.vertex_matrix(), points) and np.allclose(
+        shown.vertex_normal_matrix(), of_points["normal"]
+    )
     assert np.allclose(shown.vertex_color_matrix(), of_points["color"], atol=1e-3)
     assert np.allclose(shown.vertex_scalar_array(), of_points["quality"][:, 0])
     assert np.allclose(shown.vertex_tex_coord_matrix(), of_points["texcoord"])
@@ -143,7 +172,10 @@ def by_meshlab(path):
         found["face_color"] = np.repeat(mesh.face_color_matrix()[:, None, :3], 3, axis=1)
         # MeshLab leaves the places in a texture of an OFF unread; by Geomview they end the line of a vertex.
         lines = [line for line in path.read_text().splitlines() if not line.startswith("#")]
-        rows = [[float(word) for word in line.split()[-2:]] for line in lines[2 : 2 + mesh.vertex_number()]]
+        rows = [
+            [float(word) for word in line.split()[-2:]]
+            for line in lines[2 : 2 + mesh.vertex_number()]
+        ]
         found["texcoord"] = np.array(rows)[mesh.face_matrix()]
     return with_alpha(found, "color")
 
@@ -157,13 +189,22 @@ def by_obj(path):
     reader.Update()
     data = reader.GetOutput()
     faces = vtk_to_numpy(data.GetPolys().GetConnectivityArray()).reshape(-1, 3)
-    given = {"normal": data.GetPointData().GetNormals(), "texcoord": data.GetPointData().GetTCoords()}
-    of_points = {name: vtk_to_numpy(array)[:, : 3 if name == "normal" else 2] for name, array in given.items()}
+    given = {
+        "normal": data.GetPointData().GetNormals(),
+        "texcoord": data.GetPointData().GetTCoords(),
+    }
+    of_points = {
+        name: vtk_to_numpy(array)[:, : 3 if name == "normal" else 2]
+        for name, array in given.items()
+    }
     found = corners_of(faces, vtk_to_numpy(data.GetPoints().GetData()), of_points, {})
     colors = by_meshlab(path)
     ours, theirs = in_order(found), in_order({name: colors[name] for name in ("position", "color")})
     assert np.allclose(ours["position"], theirs["position"])
-    return {name: values.reshape(-1, 3, values.shape[1]) for name, values in {**ours, "color": theirs["color"]}.items()}
+    return {
+        name: values.reshape(-1, 3, values.shape[1])
+        for name, values in {**ours, "color": theirs["color"]}.items()
+    }
 
 
 def by_vtp(path):
@@ -183,7 +224,10 @@ def by_vtp(path):
     of_points = arrays(data.GetPointData())
     of_faces = {f"face_{name}": values for name, values in arrays(data.GetCellData()).items()}
     assert data.GetPointData().GetNormals().GetName() == "normal"
-    of_points["color"], of_faces["face_color"] = of_points["color"] / 255, of_faces["face_color"] / 255
+    of_points["color"], of_faces["face_color"] = (
+        of_points["color"] / 255,
+        of_faces["face_color"] / 255,
+    )
     faces = vtk_to_numpy(data.GetPolys().GetConnectivityArray()).reshape(-1, 3)
     found = corners_of(faces, vtk_to_numpy(data.GetPoints().GetData()), of_points, of_faces)
     return with_alpha(found, "color")
@@ -199,20 +243,36 @@ def by_glb(path):
     def numbers(index):
         accessor = tree.accessors[index]
         view, kind = tree.bufferViews[accessor.bufferView], np.dtype(kinds[accessor.componentType])
-        width, step = widths[accessor.type], view.byteStride or widths[accessor.type] * kind.itemsize
+        width, step = (
+            widths[accessor.type],
+            view.byteStride or widths[accessor.type] * kind.itemsize,
+        )
         begin = (view.byteOffset or 0) + (accessor.byteOffset or 0)
         rows = np.ndarray((accessor.count, width), kind, blob, begin, (step, kind.itemsize))
         return rows / np.iinfo(kind).max if accessor.normalized else rows.astype(np.float64)
 
     (primitive,) = tree.meshes[0].primitives
-    given = {name: numbers(index) for name, index in vars(primitive.attributes).items() if index is not None}
+    given = {
+        name: numbers(index)
+        for name, index in vars(primitive.attributes).items()
+        if index is not None
+    }
     names = {"NORMAL": "normal", "COLOR_0": "color", "TEXCOORD_0": "texcoord"}
-    of_points = {names.get(name, name.lstrip("_")): values for name, values in given.items() if name != "POSITION"}
+    of_points = {
+        names.get(name, name.lstrip("_")): values
+        for name, values in given.items()
+        if name != "POSITION"
+    }
     of_points["texcoord"] = of_points["texcoord"] * (1, -1) + (0, 1)
     shades = of_points["color"][:, :3]
-    of_points["color"][:, :3] = np.where(shades <= 0.0031308, shades * 12.92, 1.055 * shades ** (1 / 2.4) - 0.055)
+    of_points["color"][:, :3] = np.where(
+        shades <= 0.0031308, shades * 12.92, 1.055 * shades ** (1 / 2.4) - 0.055
+    )
     return with_alpha(
-        corners_of(numbers(primitive.indices).reshape(-1, 3).astype(int), given["POSITION"], of_points, {}), "color"
+        corners_of(
+            numbers(primitive.indices).reshape(-1, 3).astype(int), given["POSITION"], of_points, {}
+        ),
+        "color",
     )
 
 
@@ -235,7 +295,9 @@ def by_usd(path):
         found[names.get(primvar.GetPrimvarName(), str(primvar.GetPrimvarName()))] = values[corners]
     for name in ("color", "face_color"):
         linear = found[name].astype(np.float64)
-        found[name] = np.where(linear <= 0.0031308, linear * 12.92, 1.055 * linear ** (1 / 2.4) - 0.055)
+        found[name] = np.where(
+            linear <= 0.0031308, linear * 12.92, 1.055 * linear ** (1 / 2.4) - 0.055
+        )
     return found
 
 
@@ -251,7 +313,9 @@ def by_3mf(path):
     properties = [mesh.GetTriangleProperties(place) for place in range(len(faces))]
     group = model.GetColorGroupByID(properties[0].ResourceID)
     colors = {place: group.GetColor(place) for each in properties for place in each.PropertyIDs}
-    rgba = {place: (color.Red, color.Green, color.Blue, color.Alpha) for place, color in colors.items()}
+    rgba = {
+        place: (color.Red, color.Green, color.Blue, color.Alpha) for place, color in colors.items()
+    }
     shades = np.array([[rgba[place] for place in each.PropertyIDs] for each in properties]) / 255
     return with_alpha({"position": points[faces], "color": shades}, "color")
 
@@ -287,7 +351,9 @@ def test_a_foreign_library_finds_each_property_or_the_writer_names_it(kind, deco
     if kind == "usda":
         pytest.importorskip("pxr.Usd")
         shared = Shared(lambda: decoded.attributes, lambda: decoded.metadata)
-        with sequence_writer(str(path), kind, decoded.faces, 1, overwrite=True, shared=shared) as write:
+        with sequence_writer(
+            str(path), kind, decoded.faces, 1, overwrite=True, shared=shared
+        ) as write:
             write(decoded.positions)
         left = shared.left_out
     else:

@@ -69,7 +69,10 @@ def test_frames_are_those_that_blender_shows(name, kind):
     assert len(set(same)) == len(same) and distance.max() < 1e-5
     assert np.abs(frames - shown[:, same]).max() < 1e-5
     assert source.metadata["up"] == ("y" if kind == "glb" else "z")
-    assert any(attribute.semantic == "texcoord" and attribute.domain == "corner" for attribute in source.attributes)
+    assert any(
+        attribute.semantic == "texcoord" and attribute.domain == "corner"
+        for attribute in source.attributes
+    )
 
 
 def test_an_animation_is_sampled_at_the_rate_that_is_asked_for():
@@ -84,15 +87,22 @@ def painted(frames=COUNT):
     positions = positions.astype(np.float32).astype(np.float64)
     corners = positions[0][faces][:, :, :2].reshape(-1, 2).astype(np.float32) * 0.3 + 0.5
     color = (np.abs(positions[0]) * 99).astype(np.uint8)
-    attributes = (Attribute("texcoord", corners, "corner", "texcoord"), Attribute("color", color, "vertex", "color"))
+    attributes = (
+        Attribute("texcoord", corners, "corner", "texcoord"),
+        Attribute("color", color, "vertex", "color"),
+    )
     return positions, faces, attributes
 
 
-@pytest.mark.parametrize("kind", ["pc2", "mdd", "glb", "usda", "usdc", "usdz", "obj", "ply", "off", "stl", "npz"])
+@pytest.mark.parametrize(
+    "kind", ["pc2", "mdd", "glb", "usda", "usdc", "usdz", "obj", "ply", "off", "stl", "npz"]
+)
 def test_there_and_back(tmp_path, kind):
     needs(kind)
     positions, faces, attributes = painted()
-    one_file = sequence_kind(f"a.{kind}", None) if kind not in ("obj", "ply", "off", "stl") else None
+    one_file = (
+        sequence_kind(f"a.{kind}", None) if kind not in ("obj", "ply", "off", "stl") else None
+    )
     path = tmp_path / (f"a.{kind}" if one_file else f"%02d.{kind}")
     shared = Shared(lambda: attributes, lambda: {"unit": "cm", "up": "z", "frame_rate": 25.0})
     save_frames(path, kind, positions, faces, shared)
@@ -108,20 +118,28 @@ def test_there_and_back(tmp_path, kind):
     assert np.abs(frames - positions[:, same]).max() < 1e-6
     assert np.array_equal(np.sort(same[source.faces]), np.sort(faces))
     holds = {"ply": {"color"}, "off": {"color"}, "npz": set(), "obj": {"texcoord", "color"}}
-    assert {attribute.semantic for attribute in source.attributes} >= holds.get(kind, {"texcoord", "color"}) - {
-        "color" * (kind == "off")
-    }
+    assert {attribute.semantic for attribute in source.attributes} >= holds.get(
+        kind, {"texcoord", "color"}
+    ) - {"color" * (kind == "off")}
     assert source.frame_rate == (25 if kind in ("mdd", "glb", "usda", "usdc", "usdz") else 0)
-    texcoord = next((attribute for attribute in source.attributes if attribute.semantic == "texcoord"), None)
+    texcoord = next(
+        (attribute for attribute in source.attributes if attribute.semantic == "texcoord"), None
+    )
     if texcoord is not None:
-        shown = texcoord.values[texcoord.indices] if texcoord.indices is not None else texcoord.values[source.faces]
+        shown = (
+            texcoord.values[texcoord.indices]
+            if texcoord.indices is not None
+            else texcoord.values[source.faces]
+        )
         assert np.allclose(shown, positions[0][same[source.faces]][:, :, :2] * 0.3 + 0.5, atol=1e-5)
     if kind.startswith("usd"):
         assert (source.metadata["unit"], source.metadata["up"]) == ("centimeters", "z")
 
 
 def test_a_glb_grows_with_the_frames_and_not_with_their_square(tmp_path):
-    positions = np.random.default_rng(0).normal(size=(1200, 4, 3)).astype(np.float32).astype(np.float64)
+    positions = (
+        np.random.default_rng(0).normal(size=(1200, 4, 3)).astype(np.float32).astype(np.float64)
+    )
     faces = np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]], np.int32)
     sizes = []
     for count in (300, 1200):
@@ -139,8 +157,15 @@ def corners_of(path):
     mesh = read_mesh(path).mesh
     (texcoord,) = mesh.attributes
     places = texcoord.values[texcoord.indices].round(3).tolist()
-    faces = (zip(face, map(tuple, uv), strict=True) for face, uv in zip(mesh.faces.tolist(), places, strict=True))
-    return {found for found in map(frozenset, faces) if len(found) == 3 and len({v for v, _ in found}) == 3}
+    faces = (
+        zip(face, map(tuple, uv), strict=True)
+        for face, uv in zip(mesh.faces.tolist(), places, strict=True)
+    )
+    return {
+        found
+        for found in map(frozenset, faces)
+        if len(found) == 3 and len({v for v, _ in found}) == 3
+    }
 
 
 @pytest.mark.parametrize("kind", ["pc2", "mdd"])
@@ -187,7 +212,11 @@ def test_usd_core_reads_what_we_write(tmp_path):
     shared = Shared(lambda: attributes, lambda: {"unit": "mm", "up": "z", "frame_rate": 30.0})
     save_frames(tmp_path / "a.usdc", "usdc", positions, faces, shared)
     stage = pxr.Stage.Open(str(tmp_path / "a.usdc"))
-    assert (stage.GetStartTimeCode(), stage.GetEndTimeCode(), stage.GetTimeCodesPerSecond()) == (0, COUNT - 1, 30)
+    assert (stage.GetStartTimeCode(), stage.GetEndTimeCode(), stage.GetTimeCodesPerSecond()) == (
+        0,
+        COUNT - 1,
+        30,
+    )
     assert UsdGeom.GetStageUpAxis(stage) == "Z" and UsdGeom.GetStageMetersPerUnit(stage) == 0.001
     mesh = UsdGeom.Mesh(stage.GetDefaultPrim())
     for number, frame in enumerate(positions):
@@ -222,7 +251,9 @@ SQUARE = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], float)
 
 def test_stages_of_others(tmp_path):
     pytest.importorskip("pxr.Usd")
-    stage_of(tmp_path / "a.usda", [SQUARE, 3 * SQUARE], (0, 12), place=(0, 0, 24), hand="leftHanded")
+    stage_of(
+        tmp_path / "a.usda", [SQUARE, 3 * SQUARE], (0, 12), place=(0, 0, 24), hand="leftHanded"
+    )
     source, frames = frames_of(tmp_path / "a.usda")
     assert len(frames) == 13 and source.frame_rate == 24
     assert np.allclose(frames[6], 2 * SQUARE + [0, 0, 12]), (
@@ -234,12 +265,15 @@ def test_stages_of_others(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("start", "end", "first", "count", "outside"), [(4, 8, 1.5, 5, 3), (-4, 12, 1, 17, 0), (12, 0, 1, 13, 0)]
+    ("start", "end", "first", "count", "outside"),
+    [(4, 8, 1.5, 5, 3), (-4, 12, 1, 17, 0), (12, 0, 1, 13, 0)],
 )
 def test_a_stage_begins_where_it_says(tmp_path, start, end, first, count, outside):
     """A range that ends before it begins says nothing."""
     pytest.importorskip("pxr.Usd")
-    mesh, stage = stage_of(tmp_path / "a.usda", [SQUARE, SQUARE, 2 * SQUARE, 2 * SQUARE], (0, 2, 6, 12))
+    mesh, stage = stage_of(
+        tmp_path / "a.usda", [SQUARE, SQUARE, 2 * SQUARE, 2 * SQUARE], (0, 2, 6, 12)
+    )
     mesh.CreateDisplayColorPrimvar("vertex").Set([(0, 0, 0)] * 4, 0)
     mesh.GetDisplayColorPrimvar().Set([(1, 1, 1)] * 4, 4)
     stage.SetStartTimeCode(start)
@@ -302,14 +336,18 @@ def test_a_mirror_turns_the_faces(tmp_path, hand):
     UsdGeom.Xformable(mesh.GetPrim()).AddScaleOp().Set(Gf.Vec3f(-1, 1, 1))
     stage.Save()
     mirrored = read_mesh(tmp_path / "a.usda").mesh
-    assert mirrored.positions[:, 0].min() == -1 and np.allclose(area_vectors(mirrored), area_vectors(plain))
+    assert mirrored.positions[:, 0].min() == -1 and np.allclose(
+        area_vectors(mirrored), area_vectors(plain)
+    )
 
 
 def test_a_face_of_a_part_has_no_vertices_of_the_next(tmp_path):
     needs("usdc")
     mesh = "def Mesh {} {{\nint[] faceVertexCounts = [3]\nint[] faceVertexIndices = [0, 1, {}]\n{}\n}}\n"
     points = "point3f[] points = [(0, 0, 0), (1, 0, 0), (0, 1, 0)]"
-    (tmp_path / "a.usda").write_text("#usda 1.0\n" + mesh.format('"a"', 3, points) + mesh.format('"b"', 2, points))
+    (tmp_path / "a.usda").write_text(
+        "#usda 1.0\n" + mesh.format('"a"', 3, points) + mesh.format('"b"', 2, points)
+    )
     with pytest.raises(MeshError, match="a face of /a refers to a vertex that it does not have"):
         read_mesh(tmp_path / "a.usda")
 
@@ -342,13 +380,17 @@ def test_what_a_stage_loses_is_noted(tmp_path):
     } <= set(found.notes)
 
 
-@pytest.mark.parametrize("names", [["left ear", "left ear", "/a/nose"], [f"part {n}" for n in range(40)]])
+@pytest.mark.parametrize(
+    "names", [["left ear", "left ear", "/a/nose"], [f"part {n}" for n in range(40)]]
+)
 @pytest.mark.parametrize("kind", ["usda", "usdc", "usdz"])
 def test_names_of_parts_come_back(tmp_path, capsys, kind, names):
     needs("usdc")
     faces = np.arange(6 * len(names)).reshape(-1, 3)
     positions = np.random.default_rng(1).random((6 * len(names), 3)).astype(np.float32)
-    parts = Attribute("part", np.repeat(np.arange(len(names), dtype=np.int32), 2)[::-1, None].copy(), "face")
+    parts = Attribute(
+        "part", np.repeat(np.arange(len(names), dtype=np.int32), 2)[::-1, None].copy(), "face"
+    )
     frames = [TriangleMesh(each, faces, (parts,)) for each in (positions, 2 * positions)]
     data = encode_frames(frames, metadata=named(names, "part"), keep_order=True)
     (tmp_path / "a.bsm").write_bytes(data)
@@ -356,7 +398,9 @@ def test_names_of_parts_come_back(tmp_path, capsys, kind, names):
     assert "not written" not in capsys.readouterr().err
     found = read_mesh(tmp_path / f"a.{kind}").mesh
     (back,) = found.attributes
-    assert (back.name, back.domain) == ("part", "face") and np.array_equal(back.values, parts.values)
+    assert (back.name, back.domain) == ("part", "face") and np.array_equal(
+        back.values, parts.values
+    )
     assert names_in(found.metadata, "part") == dict(enumerate(names))
 
 
@@ -375,7 +419,9 @@ def Mesh "m" {
 }"""
     )
     found = read_mesh(tmp_path / "a.usda")
-    assert [a.values.ravel().tolist() for a in found.mesh.attributes if a.name == "part"] == [[1, 1, 1, 0]]
+    assert [a.values.ravel().tolist() for a in found.mesh.attributes if a.name == "part"] == [
+        [1, 1, 1, 0]
+    ]
     assert names_in(found.mesh.metadata, "part") == {0: "ears", 1: "rest"}
 
 
@@ -407,9 +453,13 @@ def test_instances_of_stages(tmp_path):
     source, frames = frames_of(tmp_path / "a.usda")
     assert frames.shape == (9, 4 * 4 + 2 * 3, 3)
     assert sorted(set(frames[0, :16, 2])) == [0, 1, 2, 3]
-    assert np.allclose(frames[4, 16:], [[10, 0, 4], [12, 0, 4], [10, 2, 4], [30, 0, 4], [32, 0, 4], [30, 2, 4]])
+    assert np.allclose(
+        frames[4, 16:], [[10, 0, 4], [12, 0, 4], [10, 2, 4], [30, 0, 4], [32, 0, 4], [30, 2, 4]]
+    )
     assert {"/many[0]", "/many[2]"} < set(
-        source.metadata["part.names"].splitlines() if "part.names" in source.metadata else source.metadata.values()
+        source.metadata["part.names"].splitlines()
+        if "part.names" in source.metadata
+        else source.metadata.values()
     )
 
 
@@ -492,7 +542,9 @@ def test_many_files_make_one_stream(tmp_path, capsys):
     assert bsm("decode", tmp_path / "a.bsm", "-o", tmp_path / "back.npz") == 0
     back = np.load(tmp_path / "back.npz")["positions"]
     same = cKDTree(back[0]).query(positions[0])[1]
-    assert np.abs(back[:, same] - positions).max() < 0.005 * np.linalg.norm(np.ptp(positions[0], axis=0))
+    assert np.abs(back[:, same] - positions).max() < 0.005 * np.linalg.norm(
+        np.ptp(positions[0], axis=0)
+    )
     capsys.readouterr()
     assert bsm("encode", *names[:3]) == 0
     printed = capsys.readouterr().err
@@ -503,14 +555,24 @@ def test_what_is_wrong_with_a_folder_is_named(tmp_path, capsys):
     positions, faces = bending(5)
     for name, spoil, expected in (
         ("gap", lambda files: files[2].unlink(), "frame 9 is missing between"),
-        ("nan", lambda files: files[3].write_bytes(with_nan(files[3].read_bytes(), 11)), "(frame 3): vertex 11"),
-        ("cut", lambda files: files[1].write_bytes(files[1].read_bytes()[:-9]), "walk_8.ply (frame 1)"),
+        (
+            "nan",
+            lambda files: files[3].write_bytes(with_nan(files[3].read_bytes(), 11)),
+            "(frame 3): vertex 11",
+        ),
+        (
+            "cut",
+            lambda files: files[1].write_bytes(files[1].read_bytes()[:-9]),
+            "walk_8.ply (frame 1)",
+        ),
     ):
         written(tmp_path / name, positions, faces)
         spoil(sorted((tmp_path / name).iterdir(), key=lambda file: int(file.stem[5:])))
         assert bsm("encode", tmp_path / name, "-o", tmp_path / "x.bsm") != 0
         assert expected in capsys.readouterr().err
-        assert [file.name for file in tmp_path.iterdir() if "x.bsm" in file.name] == [], "nothing half-written"
+        assert [file.name for file in tmp_path.iterdir() if "x.bsm" in file.name] == [], (
+            "nothing half-written"
+        )
 
 
 def with_nan(ply, vertex):
@@ -524,7 +586,9 @@ def test_how_frames_differ_is_reported(tmp_path):
     turned = faces.copy()
     turned[5] = np.roll(turned[5], 1)
     save(TriangleMesh(positions[1], turned), names[1])
-    with pytest.raises(MeshError, match=r"walk_8.ply \(frame 1\) has other faces than .*walk_7.ply: face 5 is"):
+    with pytest.raises(
+        MeshError, match=r"walk_8.ply \(frame 1\) has other faces than .*walk_7.ply: face 5 is"
+    ):
         list(open_frames(names, None, Limits(), Wanted(), isolated=None).frames)
     save(TriangleMesh(positions[1], faces[:-2]), names[1])
     with pytest.raises(MeshError, match="958 faces where there were 960"):
@@ -533,11 +597,15 @@ def test_how_frames_differ_is_reported(tmp_path):
 
 def test_order_and_gaps():
     assert in_order(["a10.obj", "a9.obj", "a8.obj"]) == ["a8.obj", "a9.obj", "a10.obj"]
-    assert in_order(["v2_4.obj", "v2_2.obj", "v2_6.obj"]) == ["v2_2.obj", "v2_4.obj", "v2_6.obj"], "every second frame"
+    assert in_order(["v2_4.obj", "v2_2.obj", "v2_6.obj"]) == ["v2_2.obj", "v2_4.obj", "v2_6.obj"], (
+        "every second frame"
+    )
     assert in_order(["b.obj", "a.obj"]) == ["a.obj", "b.obj"]
     with pytest.raises(MeshError, match=r"frame 4 is missing between a3\.obj and a5\.obj"):
         in_order(["a1.obj", "a2.obj", "a3.obj", "a5.obj"])
-    assert look_like_frames(["x/a1.obj", "x/a2.obj"]) and not look_like_frames(["horse.obj", "cow.obj"])
+    assert look_like_frames(["x/a1.obj", "x/a2.obj"]) and not look_like_frames(
+        ["horse.obj", "cow.obj"]
+    )
     assert not look_like_frames(["a1b7.obj", "a2b9.obj"])
 
 
@@ -621,7 +689,11 @@ def test_pc2_and_mdd_byte_by_byte(tmp_path):
         ("pc2", b"POINTCACHE2", FormatError),
         ("pc2", struct.pack("<12siiffi", b"POINTCACHE2\0", 2, 9, 0, 1, 2), FormatError),
         ("pc2", struct.pack("<12siiffi", b"POINTCACHE2\0", 1, -9, 0, 1, 2), FormatError),
-        ("pc2", struct.pack("<12siiffi", b"POINTCACHE2\0", 1, 2**31 - 1, 0, 1, 2**31 - 1), TruncatedError),
+        (
+            "pc2",
+            struct.pack("<12siiffi", b"POINTCACHE2\0", 1, 2**31 - 1, 0, 1, 2**31 - 1),
+            TruncatedError,
+        ),
         ("mdd", b"123", TruncatedError),
         ("mdd", struct.pack(">ii", -1, 4), FormatError),
         ("mdd", struct.pack(">ii", 2**31 - 1, 4), TruncatedError),
@@ -655,7 +727,9 @@ def test_the_timing_of_a_cache_comes_back(tmp_path, capsys, name):
         head = struct.pack("<12siiffi", b"POINTCACHE2\0", 1, len(mesh.positions), *times, 4)
     else:
         head = struct.pack(">ii4f", 4, len(mesh.positions), *times)
-    (tmp_path / f"a.{kind}").write_bytes(head + frames.astype("<f4" if kind == "pc2" else ">f4").tobytes())
+    (tmp_path / f"a.{kind}").write_bytes(
+        head + frames.astype("<f4" if kind == "pc2" else ">f4").tobytes()
+    )
     assert bsm("encode", tmp_path / f"a.{kind}", "-o", tmp_path / "a.bsm", "--quick") == 0
     assert bsm("decode", tmp_path / "a.bsm", "-o", tmp_path / f"b.{kind}") == 0
     assert (tmp_path / f"b.{kind}").read_bytes()[: len(head)] == head
@@ -679,7 +753,9 @@ def test_times_that_make_no_sense_are_noted(tmp_path, capsys):
         ("mdd", struct.pack(">ii2f", 2, len(mesh.positions), 1.0, 0.0)),
         ("pc2", struct.pack("<12siiffi", b"POINTCACHE2\0", 1, len(mesh.positions), np.nan, 1.0, 2)),
     ):
-        (tmp_path / f"a.{kind}").write_bytes(head + points.astype(f"{'<' if kind == 'pc2' else '>'}f4").tobytes())
+        (tmp_path / f"a.{kind}").write_bytes(
+            head + points.astype(f"{'<' if kind == 'pc2' else '>'}f4").tobytes()
+        )
         assert bsm("encode", tmp_path / f"a.{kind}", "-o", tmp_path / f"{kind}.bsm", "--quick") == 0
         assert "the times of frames are not numbers that grow" in capsys.readouterr().err
 
@@ -689,12 +765,31 @@ def test_the_start_of_a_stage_comes_back_and_samples_between_frames_are_noted(tm
     stage_of(tmp_path / "a.usda", [SQUARE, 3 * SQUARE, 2 * SQUARE], (1001, 1001.5, 1003))
     assert bsm("encode", tmp_path / "a.usda", "-o", tmp_path / "a.bsm", "--quick") == 0
     printed = capsys.readouterr().err
-    assert "1 of 3 time samples lie between the frames and are not read; --frame-rate 48 reads them" in printed
-    assert bsm("encode", tmp_path / "a.usda", "-f", "-o", tmp_path / "a.bsm", "--quick", "--frame-rate", 48) == 0
+    assert (
+        "1 of 3 time samples lie between the frames and are not read; --frame-rate 48 reads them"
+        in printed
+    )
+    assert (
+        bsm(
+            "encode",
+            tmp_path / "a.usda",
+            "-f",
+            "-o",
+            tmp_path / "a.bsm",
+            "--quick",
+            "--frame-rate",
+            48,
+        )
+        == 0
+    )
     assert "between the frames" not in capsys.readouterr().err
     assert bsm("decode", tmp_path / "a.bsm", "-o", tmp_path / "b.usda") == 0
     stage = pxr.Stage.Open(str(tmp_path / "b.usda"))
-    assert (stage.GetStartTimeCode(), stage.GetEndTimeCode(), stage.GetTimeCodesPerSecond()) == (2002, 2006, 48)
+    assert (stage.GetStartTimeCode(), stage.GetEndTimeCode(), stage.GetTimeCodesPerSecond()) == (
+        2002,
+        2006,
+        48,
+    )
 
 
 def test_other_materials_of_later_frames_are_noted(tmp_path, capsys):
@@ -702,12 +797,21 @@ def test_other_materials_of_later_frames_are_noted(tmp_path, capsys):
     for folder, more in (("same", ()), ("runs", ("--runs",))):
         (tmp_path / folder).mkdir()
         for number in range(3):
-            known = {"material.0.name": "skin", "material.0.baseColorFactor": "1 0 0 1" if number < 2 else "0 1 0 1"}
+            known = {
+                "material.0.name": "skin",
+                "material.0.baseColorFactor": "1 0 0 1" if number < 2 else "0 1 0 1",
+            }
             faces = mesh.faces if folder == "same" or number < 2 else mesh.faces[:-1]
             moved = TriangleMesh(mesh.positions * (1 + 0.1 * number), faces, metadata=known)
             save(moved, tmp_path / folder / f"{number}.npz")
-        assert bsm("encode", tmp_path / folder, "-o", tmp_path / f"{folder}.bsm", "--quick", *more) == 0
-        assert "material.0.baseColorFactor changes at frame 2, but stays as before" in capsys.readouterr().err
+        assert (
+            bsm("encode", tmp_path / folder, "-o", tmp_path / f"{folder}.bsm", "--quick", *more)
+            == 0
+        )
+        assert (
+            "material.0.baseColorFactor changes at frame 2, but stays as before"
+            in capsys.readouterr().err
+        )
 
 
 def test_a_cache_with_nan_names_the_frame(tmp_path, capsys):
@@ -717,7 +821,12 @@ def test_a_cache_with_nan_names_the_frame(tmp_path, capsys):
     frames[17, 3, 2] = np.nan
     head = struct.pack("<12siiffi", b"POINTCACHE2\0", 1, len(mesh.positions), 0, 1, 20)
     (tmp_path / "a.pc2").write_bytes(head + frames.tobytes())
-    assert bsm("encode", tmp_path / "a.pc2", "-o", tmp_path / "a.bsm", "--gop", 4, "--set", "step=0.01") == 3
+    assert (
+        bsm(
+            "encode", tmp_path / "a.pc2", "-o", tmp_path / "a.bsm", "--gop", 4, "--set", "step=0.01"
+        )
+        == 3
+    )
     assert "vertex 3 of frame 17 has" in capsys.readouterr().err
     assert sorted(file.name for file in tmp_path.iterdir()) == ["a.obj", "a.pc2"]
     np.savez(tmp_path / "a.npz", positions=frames, faces=mesh.faces)
@@ -820,7 +929,9 @@ def test_curves_go_as_gltf_says():
     assert np.allclose([cubic.at(t)[0] for t in (1, 1.5, 2, 3)], [1, 2.25, 4, 9])
     # A quarter turn about z, by the shorter way, though the second quaternion has the other sign.
     half = np.sqrt(0.5)
-    turn = Keyframes(np.array([0.0, 1.0]), np.array([[0, 0, 0, 1], [0, 0, -half, -half]]), "LINEAR", True)
+    turn = Keyframes(
+        np.array([0.0, 1.0]), np.array([[0, 0, 0, 1], [0, 0, -half, -half]]), "LINEAR", True
+    )
     angle = np.pi / 4
     eighth = matrix_of(np.zeros(3), turn.at(0.5), np.ones(3))[:2, :2]
     assert np.allclose(eighth, [[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
@@ -848,7 +959,9 @@ def test_colors_that_change_come_in(tmp_path, kind, capsys):
         deltas = zip(singles[1:] - singles[0], shades[1:] - shades[0], strict=True)
         targets = [{"POSITION": built.array(p), "COLOR_0": built.array(s)} for p, s in deltas]
         corners = built.array(faces.ravel().astype(np.uint32))
-        built.nodes({"mesh": built.mesh({"attributes": given, "indices": corners, "targets": targets})})
+        built.nodes(
+            {"mesh": built.mesh({"attributes": given, "indices": corners, "targets": targets})}
+        )
         weights = built.array(np.vstack([np.zeros((1, 4)), np.eye(4)]).astype(np.float32).ravel())
         sampler = {"input": built.array((np.arange(5) / 24).astype(np.float32)), "output": weights}
         channel = {"sampler": 0, "target": {"node": 0, "path": "weights"}}
@@ -861,9 +974,13 @@ def test_colors_that_change_come_in(tmp_path, kind, capsys):
         stage.SetTimeCodesPerSecond(24)
         mesh = UsdGeom.Mesh.Define(stage, "/mesh")
         mesh.CreateFaceVertexCountsAttr([3] * len(faces))
-        mesh.CreateFaceVertexIndicesAttr(Vt.IntArray.FromNumpy(np.ascontiguousarray(faces.reshape(-1))))
+        mesh.CreateFaceVertexIndicesAttr(
+            Vt.IntArray.FromNumpy(np.ascontiguousarray(faces.reshape(-1)))
+        )
         points = mesh.CreatePointsAttr()
-        color = UsdGeom.PrimvarsAPI(mesh).CreatePrimvar("displayColor", Sdf.ValueTypeNames.Color3fArray, "vertex")
+        color = UsdGeom.PrimvarsAPI(mesh).CreatePrimvar(
+            "displayColor", Sdf.ValueTypeNames.Color3fArray, "vertex"
+        )
         for time in range(5):
             points.Set(Vt.Vec3fArray.FromNumpy(positions[time].astype(np.float32)), time)
             color.Set(Vt.Vec3fArray.FromNumpy(shades[time]), time)
@@ -882,7 +999,10 @@ def test_colors_that_change_come_in(tmp_path, kind, capsys):
 def test_colors_are_of_the_kind_that_they_are_first():
     mesh = torus(6, 5)
     colors = [np.full((30, 3), value) for value in (np.uint8(255), np.float32(0.5))]
-    whole, part = (replace(mesh, attributes=(Attribute("color", color, "vertex", "color"),)) for color in colors)
+    whole, part = (
+        replace(mesh, attributes=(Attribute("color", color, "vertex", "color"),))
+        for color in colors
+    )
     for first, other, value in ((whole, part, 128), (part, whole, 1.0)):
         (now,) = painted_like(first, other).attributes
         assert now.values.dtype == first.attributes[0].values.dtype and (now.values == value).all()
@@ -940,7 +1060,9 @@ def test_frames_are_ordered_by_what_differs_in_their_paths(names):
         assert in_order(given) == names
     looks = names if names[0].startswith(("times", "w_")) else []
     plain = [re.sub("[dD]([-+])", r"e\1", name) for name in looks]
-    assert times_in(names) == [float(re.findall(r"-?[\d.]*\d(?:e[-+]?\d+)?", name)[0]) for name in plain]
+    assert times_in(names) == [
+        float(re.findall(r"-?[\d.]*\d(?:e[-+]?\d+)?", name)[0]) for name in plain
+    ]
 
 
 @pytest.mark.parametrize(
@@ -963,13 +1085,19 @@ def test_parts_of_a_pvd_at_one_time_are_joined_and_a_pvd_is_written(tmp_path):
     square = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], float)
     faces = np.array([[0, 1, 2], [0, 2, 3]])
     for number in range(3):
-        save(TriangleMesh(np.add(square, (3 * number, 0, number)), faces), tmp_path / f"p{number}.vtp")
+        save(
+            TriangleMesh(np.add(square, (3 * number, 0, number)), faces),
+            tmp_path / f"p{number}.vtp",
+        )
     rows = '<DataSet timestep="0.5" file="p0.vtp"/><DataSet timestep="0.5" file="p1.vtp"/>'
     rows += '<DataSet timestep="2" file="p1.vtp"/><DataSet timestep="2" file="p2.vtp"/>'
     head = '<VTKFile type="Collection" version="0.1"><Collection>{}</Collection></VTKFile>'
     (tmp_path / "a.pvd").write_text(head.format(rows))
     frames = sequence_in(str(tmp_path / "a.pvd"))
-    assert [frame[:, 0].max() for frame in frames.frames] == [4, 7] and frames.frame_rate == pytest.approx(1 / 1.5)
+    assert [frame[:, 0].max() for frame in frames.frames] == [
+        4,
+        7,
+    ] and frames.frame_rate == pytest.approx(1 / 1.5)
     for nothing in ("", ' timestep=""'):
         first = re.sub(' timestep="[^"]*"', nothing, rows.partition('<DataSet timestep="2"')[0])
         (tmp_path / "b.pvd").write_text(head.format(first))

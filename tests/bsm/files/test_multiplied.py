@@ -18,15 +18,23 @@ def scene(path, accessors, primitives):
     """A scene without any bytes: all its accessors are zeros."""
     table = [{"componentType": 5126, "type": kind, "count": count} for kind, count in accessors]
     tree = {"asset": {"version": "2.0"}, "accessors": table, "meshes": [{"primitives": primitives}]}
-    path.write_text(json.dumps(tree | {"nodes": [{"mesh": 0}], "scenes": [{"nodes": [0]}], "scene": 0}))
+    path.write_text(
+        json.dumps(tree | {"nodes": [{"mesh": 0}], "scenes": [{"nodes": [0]}], "scene": 0})
+    )
     return str(path)
 
 
 def test_combinations_of_accessors_are_counted_each(tmp_path, capsys):
     count = 20
-    pairs = [{"POSITION": 0, "_X": 1 + a, "_Y": 1 + count + b} for a in range(count) for b in range(count)]
+    pairs = [
+        {"POSITION": 0, "_X": 1 + a, "_Y": 1 + count + b}
+        for a in range(count)
+        for b in range(count)
+    ]
     accessors = [("VEC3", 9000), *[("SCALAR", 9000)] * (2 * count)]
-    path = scene(tmp_path / "a.gltf", accessors, [{"attributes": attributes} for attributes in pairs])
+    path = scene(
+        tmp_path / "a.gltf", accessors, [{"attributes": attributes} for attributes in pairs]
+    )
     with memory_below(150e6):
         assert main(["glb", path, "-o", str(tmp_path / "a.glb"), "-q"]) == 6
     assert "memory" in capsys.readouterr().err and not (tmp_path / "a.glb").exists()
@@ -50,7 +58,9 @@ def test_images_of_many_pixels_stay_as_they_are(tmp_path, capsys):
     built.tree["images"] = [{"bufferView": built.view(image), "mimeType": "image/png"}]
     (tmp_path / "a.glb").write_bytes(built.bytes)
     with memory_below(100e6):
-        code = main(["glb", str(tmp_path / "a.glb"), "-o", str(tmp_path / "b.glb"), "--images", "webp"])
+        code = main(
+            ["glb", str(tmp_path / "a.glb"), "-o", str(tmp_path / "b.glb"), "--images", "webp"]
+        )
     assert code == 0 and "pixels" in capsys.readouterr().err
 
 
@@ -67,7 +77,19 @@ def test_no_output_of_glb_replaces_what_it_reads(tmp_path, capsys):
     bsm.save(torus(12, 8), tmp_path / "a.glb")
     data = (tmp_path / "a.glb").read_bytes()
     (tmp_path / "b.fallback.bin").write_bytes(data)
-    assert main(["glb", str(tmp_path / "b.fallback.bin"), "-o", str(tmp_path / "b.glb"), "--fallback", "-f"]) == 2
+    assert (
+        main(
+            [
+                "glb",
+                str(tmp_path / "b.fallback.bin"),
+                "-o",
+                str(tmp_path / "b.glb"),
+                "--fallback",
+                "-f",
+            ]
+        )
+        == 2
+    )
     assert (tmp_path / "b.fallback.bin").read_bytes() == data and not (tmp_path / "b.glb").exists()
     tree, numbers = unpack(data)
     tree["buffers"] = [{"uri": "c.glb", "byteLength": len(numbers)}]

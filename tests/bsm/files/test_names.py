@@ -23,13 +23,21 @@ SETTINGS = Path(unread.__file__).with_name("settings.csv")
 
 def ply(path, vertex, rows, face="", of_faces=("", ""), comments=()):
     """Write two triangles whose vertices, of which each has its own row, have some properties."""
-    head = ["ply", "format ascii 1.0", *comments, "element vertex 6", *(f"property float {axis}" for axis in "xyz")]
+    head = [
+        "ply",
+        "format ascii 1.0",
+        *comments,
+        "element vertex 6",
+        *(f"property float {axis}" for axis in "xyz"),
+    ]
     head += [f"property {one}" for one in vertex.split(", ") if one]
     head += ["element face 2", "property list uchar int vertex_indices"]
     head += [f"property {one}" for one in face.split(", ") if one]
     points = ["0 0 0", "1 0 0", "1 1 .2", "0 0 0", "1 1 .2", "0 1 0"]
     lines = [f"{point} {row}" for point, row in zip(points, rows, strict=True)]
-    lines += [f"3 {corners} {row}" for corners, row in zip(("0 1 2", "3 4 5"), of_faces, strict=True)]
+    lines += [
+        f"3 {corners} {row}" for corners, row in zip(("0 1 2", "3 4 5"), of_faces, strict=True)
+    ]
     path.write_text("\n".join([*head, "end_header", *lines, ""]))
     return path
 
@@ -81,7 +89,9 @@ def test_colors_that_are_floats_to_255_keep_their_names_and_numbers(tmp_path):
     assert there_and_back(path) == (["red", "green", "blue"], [])
 
 
-@pytest.mark.parametrize("face", ["int texnumber", "int material_index", "int material", "float quality", "int label"])
+@pytest.mark.parametrize(
+    "face", ["int texnumber", "int material_index", "int material", "float quality", "int label"]
+)
 def test_properties_of_faces_come_back_under_their_names(face, tmp_path):
     path = ply(tmp_path / "a.ply", "float quality", range(6), face, ("0", "1"))
     assert there_and_back(path) == (["quality"], [face.split()[1]])
@@ -90,13 +100,22 @@ def test_properties_of_faces_come_back_under_their_names(face, tmp_path):
 def test_wedges_stay_lists_where_a_file_has_them(tmp_path):
     places = ("6 0 0 1 0 1 1 0", "6 .5 0 1 0 1 1 1")
     for images in ((), ("comment TextureFile a.png", "comment TextureFile b.png")):
-        path = ply(tmp_path / "a.ply", "", [""] * 6, "list uchar float texcoord, int texnumber", places, images)
+        path = ply(
+            tmp_path / "a.ply",
+            "",
+            [""] * 6,
+            "list uchar float texcoord, int texnumber",
+            places,
+            images,
+        )
         assert there_and_back(path) == ([], ["texnumber", "[texcoord]"])
 
 
 def test_meshlab_and_openmvs_find_the_image_of_each_face(tmp_path):
     trimesh = pytest.importorskip("trimesh")
-    (tmp_path / "a.mtl").write_text("newmtl plain\nKd 1 0 0\nnewmtl one\nmap_Kd 1.png\nnewmtl two\nmap_Kd 2.png\n")
+    (tmp_path / "a.mtl").write_text(
+        "newmtl plain\nKd 1 0 0\nnewmtl one\nmap_Kd 1.png\nnewmtl two\nmap_Kd 2.png\n"
+    )
     faces = "usemtl plain\nf 1/1 2/2 3/3\nusemtl two\nf 1/1 3/3 4/4\nusemtl one\nf 2/2 4/4 3/3\n"
     points = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 1\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
     (tmp_path / "a.obj").write_text(f"mtllib a.mtl\n{points}{faces}")
@@ -106,10 +125,15 @@ def test_meshlab_and_openmvs_find_the_image_of_each_face(tmp_path):
     header = (tmp_path / "b.ply").read_bytes().split(b"end_header")[0].decode().splitlines()
     images = [line.split()[-1] for line in header if "TextureFile" in line]
     rows = theirs["face"]["data"]
-    shown = [images[number] if number >= 0 else "" for number in rows["texnumber"].reshape(-1).tolist()]
+    shown = [
+        images[number] if number >= 0 else "" for number in rows["texnumber"].reshape(-1).tolist()
+    ]
     assert shown == ["", "2.png", "1.png"]
     # The numbers of images follow from the materials, and are not read as another attribute.
-    assert [one.name for one in read_mesh(tmp_path / "b.ply").mesh.attributes] == ["material", "texcoord"]
+    assert [one.name for one in read_mesh(tmp_path / "b.ply").mesh.attributes] == [
+        "material",
+        "texcoord",
+    ]
 
 
 # ------------------------------------------------------------------------------------------------------ other libraries
@@ -117,7 +141,9 @@ def test_meshlab_and_openmvs_find_the_image_of_each_face(tmp_path):
 
 def save_vtk(path, kind, **arrays):
     """Write a square of two triangles with VTK; arrays are of cells, and names of components follow a bar."""
-    core, data = (pytest.importorskip(f"vtkmodules.vtkCommon{name}") for name in ("Core", "DataModel"))
+    core, data = (
+        pytest.importorskip(f"vtkmodules.vtkCommon{name}") for name in ("Core", "DataModel")
+    )
     from vtkmodules.util.numpy_support import numpy_to_vtk
     from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter, vtkXMLUnstructuredGridWriter
 
@@ -155,7 +181,10 @@ def test_components_come_back_to_vtk_under_their_names(kind, tmp_path):
     reader.SetFileName(str(tmp_path / "b.vtp"))
     reader.Update()
     cells = reader.GetOutput().GetCellData()
-    for name, (values, *components) in {"S": stress, "U": ([[1.0, 2, 3]] * 2, "UX", "UY", "UZ")}.items():
+    for name, (values, *components) in {
+        "S": stress,
+        "U": ([[1.0, 2, 3]] * 2, "UX", "UY", "UZ"),
+    }.items():
         array = cells.GetArray(name)
         assert [array.GetComponentName(place) for place in range(len(components))] == components
         rows = [array.GetTuple(row) for row in range(2)]
@@ -165,7 +194,9 @@ def test_components_come_back_to_vtk_under_their_names(kind, tmp_path):
 def test_a_tensor_of_xdmf_has_the_order_of_xdmf(tmp_path):
     pytest.importorskip("lxml")
     items = {"Topology": ("1 3", "0 1 2"), "Geometry": ("3 3", "0 0 0 1 0 0 0 1 0")}
-    topology, geometry = (f'<DataItem Dimensions="{size}">{text}</DataItem>' for size, text in items.values())
+    topology, geometry = (
+        f'<DataItem Dimensions="{size}">{text}</DataItem>' for size, text in items.values()
+    )
     tensor = '<DataItem Dimensions="1 6">1 2 3 4 5 6</DataItem>'  # xx xy xz yy yz zz
     (tmp_path / "a.xdmf").write_text(
         '<Xdmf Version="3.0"><Domain><Grid>'
@@ -174,7 +205,10 @@ def test_a_tensor_of_xdmf_has_the_order_of_xdmf(tmp_path):
         f'<Attribute Name="S" AttributeType="Tensor6" Center="Cell">{tensor}</Attribute></Grid></Domain></Xdmf>'
     )
     mesh = read_mesh(tmp_path / "a.xdmf").mesh
-    found = {name: float(attribute(mesh, f"S.{name}").values[0, 0]) for name in ("xx", "yy", "zz", "xy", "yz", "xz")}
+    found = {
+        name: float(attribute(mesh, f"S.{name}").values[0, 0])
+        for name in ("xx", "yy", "zz", "xy", "yz", "xz")
+    }
     assert found == {"xx": 1, "xy": 2, "xz": 3, "yy": 4, "yz": 5, "zz": 6}
 
 
@@ -187,7 +221,9 @@ def test_hidden_cells_are_left_out_and_named(kind, tmp_path):
 
 
 def test_strips_of_a_vtp_are_triangles(tmp_path):
-    core, data = (pytest.importorskip(f"vtkmodules.vtkCommon{name}") for name in ("Core", "DataModel"))
+    core, data = (
+        pytest.importorskip(f"vtkmodules.vtkCommon{name}") for name in ("Core", "DataModel")
+    )
     from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 
     points, strips, polygons = core.vtkPoints(), data.vtkCellArray(), data.vtkCellArray()
@@ -230,7 +266,13 @@ def exodus(path, steps=1):
         "num_dim": 3,
         "num_nodes": 12,
     }
-    sizes |= {"num_elem": 2, "num_el_blk": 1, "num_el_in_blk1": 2, "num_nod_per_el1": 8, "num_side_sets": 2}
+    sizes |= {
+        "num_elem": 2,
+        "num_el_blk": 1,
+        "num_el_in_blk1": 2,
+        "num_nod_per_el1": 8,
+        "num_side_sets": 2,
+    }
     sizes |= {
         "num_side_ss1": 1,
         "num_side_ss2": 2,
@@ -272,9 +314,15 @@ def exodus(path, steps=1):
     words("name_glo_var", "num_glo_var", ["energy"])
     file.createVariable("time_whole", "d", ("time_step",))[:steps] = np.arange(steps, dtype=float)
     for number in range(1, 5):
-        values = np.zeros((steps, 12)) + (10.0 * np.arange(steps)[:, None] + 5 if number == 1 else 0)
-        file.createVariable(f"vals_nod_var{number}", "d", ("time_step", "num_nodes"))[:steps] = values
-    file.createVariable("vals_glo_var", "d", ("time_step", "num_glo_var"))[:steps] = 7.0 + np.arange(steps)[:, None]
+        values = np.zeros((steps, 12)) + (
+            10.0 * np.arange(steps)[:, None] + 5 if number == 1 else 0
+        )
+        file.createVariable(f"vals_nod_var{number}", "d", ("time_step", "num_nodes"))[:steps] = (
+            values
+        )
+    file.createVariable("vals_glo_var", "d", ("time_step", "num_glo_var"))[:steps] = (
+        7.0 + np.arange(steps)[:, None]
+    )
     file.close()
     return path
 
@@ -307,8 +355,15 @@ def test_each_setting_of_the_readers_of_vtk_is_decided():
     rows = [*csv.DictReader(SETTINGS.read_text().splitlines())]
     decided = {(row["reader"], setting) for row in rows for setting in row["settings"].split()}
     assert all(row["reason"] for row in rows)
-    own = {kind: row.modules[1] for kind, row in FORMATS.items() if row.modules[1:] and "vtkmodules" in row.modules[1]}
-    names = {_READERS.get(kind) or _READERS[module.partition(".")[2]]: module for kind, module in own.items()}
+    own = {
+        kind: row.modules[1]
+        for kind, row in FORMATS.items()
+        if row.modules[1:] and "vtkmodules" in row.modules[1]
+    }
+    names = {
+        _READERS.get(kind) or _READERS[module.partition(".")[2]]: module
+        for kind, module in own.items()
+    }
     every = set()
     for name, module in names.items():
         reader = getattr(importlib.import_module(module), name)
@@ -389,7 +444,10 @@ def test_instances_have_their_own_colors_materials_and_values(tmp_path):
     colors = attribute(mesh, "color").values[mesh.faces[:, 0], :3].tolist()
     red, green, blue = [255, 0, 0], [0, 255, 0], [0, 0, 255]
     assert colors == [red, blue, red, green, red]
-    names = [mesh.metadata.get(f"material.{number}.name") for number in attribute(mesh, "material").values[:2, 0]]
+    names = [
+        mesh.metadata.get(f"material.{number}.name")
+        for number in attribute(mesh, "material").values[:2, 0]
+    ]
     assert names == ["Red", "Blue"]
     assert attribute(mesh, "heat").values[:, 0].tolist() == [0, 0, 1, 2, 3]
 
@@ -408,7 +466,9 @@ def scene_of_collada(path):
         return f'<effect id="e{name}"><profile_COMMON><technique>{shading}</technique></profile_COMMON></effect>'
 
     names = ("Red", "Blue")
-    materials = "".join(f'<material id="{n}" name="{n}"><instance_effect url="#e{n}"/></material>' for n in names)
+    materials = "".join(
+        f'<material id="{n}" name="{n}"><instance_effect url="#e{n}"/></material>' for n in names
+    )
     axes = "".join(f'<param name="{axis}" type="float"/>' for axis in "XYZ")
     accessor = f'<accessor source="#a" count="3" stride="3">{axes}</accessor>'
     path.write_text(f"""<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
@@ -433,7 +493,9 @@ def scene_of_3mf(path):
     red = materials.AddMaterial("Red", wrapper.RGBAToColor(255, 0, 0, 255))
     blue = materials.AddMaterial("Blue", wrapper.RGBAToColor(0, 0, 255, 255))
     points = [lib3mf.Position(point) for point in ((0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1))]
-    triangles = [lib3mf.Triangle(corners) for corners in ((0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2))]
+    triangles = [
+        lib3mf.Triangle(corners) for corners in ((0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2))
+    ]
     objects = []
     for material in (red, blue):
         shape = model.AddMeshObject()
@@ -446,7 +508,8 @@ def scene_of_3mf(path):
         model.AddBuildItem(shape, lib3mf.Transform((lib3mf.ctypes.c_float * 3 * 4)(*rows)))
     own_locale = locale.setlocale(locale.LC_ALL)
     model.QueryWriter("3mf").WriteToFile(str(path))
-    locale.setlocale(locale.LC_ALL, own_locale)  # lib3mf leaves that of C, in which files are read as ASCII
+    # lib3mf leaves that of C, in which files are read as ASCII.
+    locale.setlocale(locale.LC_ALL, own_locale)
 
 
 def scene_of_gltf(path):
@@ -456,13 +519,17 @@ def scene_of_gltf(path):
     document = pygltflib.GLTF2(scene=0, scenes=[pygltflib.Scene(nodes=[0, 1, 2])])
     for name, color in (("Red", [1, 0, 0, 1]), ("Blue", [0, 0, 1, 1])):
         surface = pygltflib.PbrMetallicRoughness(baseColorFactor=color)
-        part = pygltflib.Primitive(attributes=pygltflib.Attributes(POSITION=0), material=len(document.materials))
+        part = pygltflib.Primitive(
+            attributes=pygltflib.Attributes(POSITION=0), material=len(document.materials)
+        )
         document.materials.append(pygltflib.Material(name=name, pbrMetallicRoughness=surface))
         document.meshes.append(pygltflib.Mesh(primitives=[part]))
     for mesh, place in ((0, 0), (1, 3), (0, 6)):
         document.nodes.append(pygltflib.Node(mesh=mesh, translation=[place, 0, 0], scale=[2, 2, 2]))
     bounds = {"min": [0, 0, 0], "max": [1, 1, 0]}
-    document.accessors = [pygltflib.Accessor(bufferView=0, componentType=5126, count=3, type="VEC3", **bounds)]
+    document.accessors = [
+        pygltflib.Accessor(bufferView=0, componentType=5126, count=3, type="VEC3", **bounds)
+    ]
     document.bufferViews = [pygltflib.BufferView(buffer=0, byteLength=points.nbytes)]
     document.buffers = [pygltflib.Buffer(byteLength=points.nbytes)]
     document.set_binary_blob(points.tobytes())
@@ -471,7 +538,11 @@ def scene_of_gltf(path):
 
 @pytest.mark.parametrize(
     ("suffix", "write", "color"),
-    [("dae", scene_of_collada, "Kd"), ("3mf", scene_of_3mf, "Kd"), ("glb", scene_of_gltf, "baseColorFactor")],
+    [
+        ("dae", scene_of_collada, "Kd"),
+        ("3mf", scene_of_3mf, "Kd"),
+        ("glb", scene_of_gltf, "baseColorFactor"),
+    ],
 )
 def test_placed_parts_keep_their_place_and_material(suffix, write, color, tmp_path):
     write(tmp_path / f"a.{suffix}")
@@ -507,14 +578,18 @@ def test_values_that_are_none_are_marked_and_lossless_refuses_them(tmp_path, cap
     assert main(["encode", str(path), "--preset", "lossless", "-o", str(tmp_path / "a.bsm")]) == 11
     assert "distance" in capsys.readouterr().err
     bsm.save(bsm.decode(bsm.encode(mesh, preset="grid14")), tmp_path / "b.ply")
-    raw = pytest.importorskip("trimesh").load(tmp_path / "b.ply", process=False).metadata["_ply_raw"]
+    raw = (
+        pytest.importorskip("trimesh").load(tmp_path / "b.ply", process=False).metadata["_ply_raw"]
+    )
     assert [*raw["vertex"]["properties"]] == ["x", "y", "z", "distance"]
     corners = np.array([row[1] for row in raw["face"]["data"]["vertex_indices"].tolist()])
     assert np.isnan(raw["vertex"]["data"]["distance"])[corners].sum() == 2
 
 
 def test_colors_of_which_some_are_none_are_colors(tmp_path):
-    path = ply(tmp_path / "a.ply", "float red, float green, float blue", ["nan nan nan", *["1 .5 0"] * 5])
+    path = ply(
+        tmp_path / "a.ply", "float red, float green, float blue", ["nan nan nan", *["1 .5 0"] * 5]
+    )
     assert attribute(read_mesh(path).mesh, "color").semantic == "color"
 
 
@@ -526,7 +601,19 @@ def test_a_material_of_two_libraries_and_images_in_tiles_are_named(tmp_path, cap
     assert read_mesh(tmp_path / "a.obj").dropped == ("the material A of a later library",)
     (tmp_path / "a.mtl").write_text("newmtl A\nmap_Kd skin.<UDIM>.png\n")
     (tmp_path / "b.obj").write_text(f"mtllib a.mtl\n{body}")
-    assert main(["encode", str(tmp_path / "b.obj"), "--preset", "lossless", "-o", str(tmp_path / "b.bsm")]) == 11
+    assert (
+        main(
+            [
+                "encode",
+                str(tmp_path / "b.obj"),
+                "--preset",
+                "lossless",
+                "-o",
+                str(tmp_path / "b.bsm"),
+            ]
+        )
+        == 11
+    )
     assert "skin.<UDIM>.png" in capsys.readouterr().err
 
 
@@ -543,6 +630,19 @@ def test_frames_of_split_vertices_keep_their_promise(tmp_path):
         path = ply(tmp_path / f"f{number}.ply", "uchar red, uchar green, uchar blue", colors)
         path.write_text(path.read_text().replace("1 1 .2 ", f"1 1 .{2 + number} "))
     assert main(["encode", str(tmp_path), "-q", "-o", str(tmp_path / "a.bsm")]) == 0
-    assert main(["decode", str(tmp_path / "a.bsm"), "-q", "--format", "ply", "-o", f"{tmp_path / 'out'}/"]) == 0
+    assert (
+        main(
+            [
+                "decode",
+                str(tmp_path / "a.bsm"),
+                "-q",
+                "--format",
+                "ply",
+                "-o",
+                f"{tmp_path / 'out'}/",
+            ]
+        )
+        == 0
+    )
     for frame in (tmp_path / "out").iterdir():
         assert properties(frame.read_bytes()) == (["red", "green", "blue"], [])

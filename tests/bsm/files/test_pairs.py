@@ -13,13 +13,20 @@ from bsm.files.formats.metadata import materials_in
 from bsm.files.table import WRITTEN_FORMATS
 
 FACES = np.array([[0, 1, 2], [2, 1, 3], [2, 3, 4]])
-COLORS = np.array([[255, 0, 0, 255], [0, 128, 0, 200], [0, 0, 64, 255], [9, 9, 9, 10], [200, 100, 50, 128]], np.uint8)
+COLORS = np.array(
+    [[255, 0, 0, 255], [0, 128, 0, 200], [0, 0, 64, 255], [9, 9, 9, 10], [200, 100, 50, 128]],
+    np.uint8,
+)
 MESH = TriangleMesh(
     np.array([[0, 0, 0], [10, 0, 0], [0, 20, 30], [10, 20, 40], [5, 40, 80.0]]),
     FACES,
     (
         Attribute("color", COLORS, semantic="color"),
-        Attribute("texcoord", np.array([[0, 0], [1, 0], [0, 1], [1, 1], [0.25, 0.75]]), semantic="texcoord"),
+        Attribute(
+            "texcoord",
+            np.array([[0, 0], [1, 0], [0, 1], [1, 1], [0.25, 0.75]]),
+            semantic="texcoord",
+        ),
         Attribute("material", np.array([[0], [1], [1]], np.int32), "face"),
     ),
     {
@@ -48,12 +55,19 @@ def meaning(mesh):
     def sorted_(values):
         return np.take_along_axis(values, turn[..., None], 1)[order]
 
-    found, of = {"place": sorted_(corners)}, {attribute.semantic: attribute for attribute in mesh.attributes}
-    of_faces = next((attribute for attribute in mesh.attributes if attribute.name == "material"), None)
+    found, of = (
+        {"place": sorted_(corners)},
+        {attribute.semantic: attribute for attribute in mesh.attributes},
+    )
+    of_faces = next(
+        (attribute for attribute in mesh.attributes if attribute.name == "material"), None
+    )
     for name in of.keys() & {"color", "texcoord"}:
         rows = mesh.faces if of[name].domain == "vertex" else np.arange(mesh.faces.size)
         rows = rows if of[name].indices is None else of[name].indices
-        found[name] = sorted_(of[name].values[np.reshape(rows, (-1, 3))].astype(of[name].values.dtype))
+        found[name] = sorted_(
+            of[name].values[np.reshape(rows, (-1, 3))].astype(of[name].values.dtype)
+        )
     if "color" in found:
         linear = to_linear(shares_of(found.pop("color")))
         found["colors"], found["opacity"] = linear[..., :3], linear[..., 3:]
@@ -61,7 +75,9 @@ def meaning(mesh):
             del found["opacity"]
     if of_faces is not None and (materials := materials_in(mesh.metadata)):
         numbers = of_faces.values.ravel()[order].tolist()
-        found["material"] = np.array([[*(look := appearance(materials[n])).color, look.opacity] for n in numbers])
+        found["material"] = np.array(
+            [[*(look := appearance(materials[n])).color, look.opacity] for n in numbers]
+        )
     return found
 
 

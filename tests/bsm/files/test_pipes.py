@@ -71,7 +71,11 @@ def test_reading_in_parts(source):
 def test_a_file_that_does_not_wait_is_not_at_its_end():
     reading, writing = os.pipe()
     os.set_blocking(reading, False)
-    with open(writing, "wb"), open(reading, "rb", buffering=0) as file, pytest.raises(BlockingIOError):
+    with (
+        open(writing, "wb"),
+        open(reading, "rb", buffering=0) as file,
+        pytest.raises(BlockingIOError),
+    ):
         as_input(file).read_all()
 
 
@@ -79,7 +83,9 @@ def test_what_is_a_pipe(tmp_path):
     os.mkfifo(tmp_path / "fifo")
     (tmp_path / "file").write_bytes(b"")
     assert is_pipe("-") and is_pipe(tmp_path / "fifo") and is_pipe("/dev/null")
-    assert not is_pipe(tmp_path) and not is_pipe(tmp_path / "file") and not is_pipe(tmp_path / "none")
+    assert (
+        not is_pipe(tmp_path) and not is_pipe(tmp_path / "file") and not is_pipe(tmp_path / "none")
+    )
     assert not is_pipe(io.BytesIO())
 
 
@@ -102,7 +108,9 @@ def test_the_command_line_takes_what_a_shell_gives(line, tmp_path):
     command = ["bash", "-c", program + feed + line.replace("encode", "encode --grid 8")]
     done = subprocess.run(command, cwd=tmp_path, capture_output=True, timeout=120, check=True)
     assert b"Traceback" not in done.stderr
-    assert len(read_mesh(tmp_path / "out.ply").mesh.faces) == len(read_mesh(tmp_path / "in.ply").mesh.faces)
+    assert len(read_mesh(tmp_path / "out.ply").mesh.faces) == len(
+        read_mesh(tmp_path / "in.ply").mesh.faces
+    )
 
 
 def test_a_pipe_without_end_is_refused_at_its_bound(monkeypatch):

@@ -40,7 +40,9 @@ def same(text: bytes) -> None:
         assert (plain.places(which) == slow.places(which)).all()
         one, other = plain.rows(keyword, "vertex"), slow.rows(keyword, "vertex")
         assert (one.counts == other.counts).all() and (one.starts == other.starts).all()
-        assert one.values.tobytes() == other.values.tobytes(), "to the bit, and with the sign of zero"
+        assert one.values.tobytes() == other.values.tobytes(), (
+            "to the bit, and with the sign of zero"
+        )
     for keyword in (b"mtllib", b"usemtl", b"g", b"o", b"s", b"lines"):
         assert plain.values_of(keyword) == slow.values_of(keyword)
         assert (plain.before_faces(keyword) == slow.before_faces(keyword)).all()
@@ -55,8 +57,13 @@ def test_plain_texts_are_read_alike(end: bytes) -> None:
 def test_every_number_is_the_nearest_double() -> None:
     random = np.random.default_rng(3)
     numbers = random.normal(size=3000) * 10.0 ** random.integers(-40, 40, 3000)
-    digits = [f"{number:.{places}{kind}}" for number, places, kind in zip(numbers, [3, 8, 17] * 1000, "gfe" * 1000)]
-    same("".join(f"v {x} {y} {z}\n" for x, y, z in zip(*[iter(digits)] * 3)).encode() + b"f 1 2 3\n")
+    digits = [
+        f"{number:.{places}{kind}}"
+        for number, places, kind in zip(numbers, [3, 8, 17] * 1000, "gfe" * 1000)
+    ]
+    same(
+        "".join(f"v {x} {y} {z}\n" for x, y, z in zip(*[iter(digits)] * 3)).encode() + b"f 1 2 3\n"
+    )
 
 
 @pytest.mark.parametrize(

@@ -42,7 +42,9 @@ def test_compressed_files(kind, tmp_path):
 @pytest.mark.parametrize("kind", ["obj", "off", "ply"])
 def test_a_byte_order_mark_is_no_part_of_a_file(kind):
     rows = "{}\n{}\n{}\n3 0 1 2\n"
-    text = {"obj": "v {}\nv {}\nv {}\nf 1 2 3\n", "off": "OFF\n3 1 0\n" + rows}.get(kind, ply_head() + rows)
+    text = {"obj": "v {}\nv {}\nv {}\nf 1 2 3\n", "off": "OFF\n3 1 0\n" + rows}.get(
+        kind, ply_head() + rows
+    )
     data = text.format("5 0 0", "1 0 0", "0 1 0").encode("utf-8-sig")
     assert read_mesh(data).mesh.positions.tolist() == [[5, 0, 0], [1, 0, 0], [0, 1, 0]]
 
@@ -84,8 +86,12 @@ def trimesh():
 def gltf(folder):
     """A glTF of one triangle whose numbers are in a file beside it, shown twice: once moved, once mirrored."""
     built = Built()
-    points = built.array(np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], np.float32), min=[0, 0, 0], max=[1, 1, 0])
-    built.mesh({"attributes": {"POSITION": points}, "indices": built.array(np.arange(3, dtype=np.uint16))})
+    points = built.array(
+        np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], np.float32), min=[0, 0, 0], max=[1, 1, 0]
+    )
+    built.mesh(
+        {"attributes": {"POSITION": points}, "indices": built.array(np.arange(3, dtype=np.uint16))}
+    )
     built.nodes({"mesh": 0, "translation": [5, 0, 0]}, {"mesh": 0, "scale": [-1, 1, 1]})
     (folder / "numbers.bin").write_bytes(built.data)
     built.tree["buffers"] = [{"uri": "numbers.bin", "byteLength": len(built.data)}]
@@ -97,7 +103,9 @@ def test_a_scene_becomes_one_mesh(trimesh, tmp_path):
     source = read_mesh(gltf(tmp_path))
     triangles = sorted(source.mesh.positions[source.mesh.faces].tolist())
     mirrored = [[0, 1, 0], [-1, 0, 0], [0, 0, 0]]
-    assert triangles == [mirrored, [[5, 0, 0], [6, 0, 0], [5, 1, 0]]], "what is mirrored is not inside out"
+    assert triangles == [mirrored, [[5, 0, 0], [6, 0, 0], [5, 1, 0]]], (
+        "what is mirrored is not inside out"
+    )
     assert "2 parts were joined to one mesh" in source.notes
 
 
@@ -125,10 +133,14 @@ def torus_arrays():
     return mesh.positions, mesh.faces
 
 
-@pytest.mark.parametrize("data", [b"glTF", b"glTF\2\0\0\0\xff\xff\xff\xff\0\0\0\0JSON{}", b"glTF" + bytes(100)])
+@pytest.mark.parametrize(
+    "data", [b"glTF", b"glTF\2\0\0\0\xff\xff\xff\xff\0\0\0\0JSON{}", b"glTF" + bytes(100)]
+)
 def test_damaged_scenes(trimesh, data, tmp_path):
     (tmp_path / "a.glb").write_bytes(data)
-    with pytest.raises((FormatError, TruncatedError), match=r"not a GLB|this GLB should|a GLB begins"):
+    with pytest.raises(
+        (FormatError, TruncatedError), match=r"not a GLB|this GLB should|a GLB begins"
+    ):
         read_mesh(tmp_path / "a.glb")
 
 
@@ -175,7 +187,9 @@ def test_stl_joins_equal_corners(tmp_path):
     save(TETRAHEDRON, path)
     source = read_mesh(path)
     assert len(path.read_bytes()) == 84 + 4 * 50
-    assert np.array_equal(source.mesh.positions[source.mesh.faces], TETRAHEDRON.positions[TETRAHEDRON.faces])
+    assert np.array_equal(
+        source.mesh.positions[source.mesh.faces], TETRAHEDRON.positions[TETRAHEDRON.faces]
+    )
     assert len(source.mesh.positions) == 4
     assert "12 corners" in source.notes[0]
 
@@ -203,7 +217,9 @@ def test_obj_counts_back_continues_lines_and_ignores_the_rest(tmp_path):
     source = read_mesh(write(tmp_path, "a.obj", text))
     assert source.mesh.faces.tolist() == [[0, 1, 2], [0, 1, 3]]
     assert len(source.mesh.positions) == 4
-    assert {"lines that begin with l", "faces with fewer than three corners (1)"} <= set(source.dropped)
+    assert {"lines that begin with l", "faces with fewer than three corners (1)"} <= set(
+        source.dropped
+    )
 
 
 @pytest.mark.parametrize("line_end", ["\r\n", "\r"])
@@ -214,7 +230,9 @@ def test_other_line_ends(name, line_end, tmp_path):
         "a.off": "OFF\n3 1 0\n0 0 0\n1 0 0\n1 1 0\n3 0 1 2\n",
         "a.ply": ply("0 0 0\n1 0 0\n1 1 0\n3 0 1 2\n", vertices=3),
     }
-    assert len(read_mesh(write(tmp_path, name, texts[name].replace("\n", line_end))).mesh.faces) == 1
+    assert (
+        len(read_mesh(write(tmp_path, name, texts[name].replace("\n", line_end))).mesh.faces) == 1
+    )
 
 
 def test_the_content_tells_the_format_where_the_name_does_not(tmp_path):
@@ -256,20 +274,29 @@ BAD = {
     "magic.ply": ("plx\n", FormatError),
     "no_end.ply": ("ply\nformat ascii 1.0\n", TruncatedError),
     "no_format.ply": ("ply\nelement vertex 0\nend_header\n", FormatError),
-    "type.ply": ("ply\nformat ascii 1.0\nelement vertex 1\nproperty quad x\nend_header\n", FormatError),
+    "type.ply": (
+        "ply\nformat ascii 1.0\nelement vertex 1\nproperty quad x\nend_header\n",
+        FormatError,
+    ),
     "nan.ply": (ply(NUMBER.format("nan") + "4 0 1 2 3\n"), MeshError),
     "large.ply": (ply(NUMBER.format("1e999") + "4 0 1 2 3\n"), MeshError),
     "outside.ply": (ply(SQUARE + "3 0 1 7\n"), MeshError),
     "points.ply": (ply(SQUARE, faces=0), MeshError),
     "huge.ply": (ply("", 12000000, 12000000), TruncatedError),
     "huge_binary.ply": (ply("", 12000000, 12000000, "binary_little_endian"), TruncatedError),
-    "strips.ply": (ply(SQUARE).replace("element face 1", "element tristrips 1") + "4 0 1 2 3\n", MeshError),
+    "strips.ply": (
+        ply(SQUARE).replace("element face 1", "element tristrips 1") + "4 0 1 2 3\n",
+        MeshError,
+    ),
     "flat.ply": (ply(SQUARE + "3 0 1 2\n").replace("float y", "float u"), MeshError),
     "no_list.ply": (ply(SQUARE + "3 0 1 2\n").replace("vertex_indices", "strange"), MeshError),
     "cut.stl": (b"\0" * 80 + (1000).to_bytes(4, "little") + bytes(50), TruncatedError),
     "short.stl": (b"\0" * 20, FormatError),
     "nan.stl": (b"\0" * 80 + (1).to_bytes(4, "little") + b"\xff" * 50, MeshError),
-    "cut_text.stl": ("solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n", TruncatedError),
+    "cut_text.stl": (
+        "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n",
+        TruncatedError,
+    ),
     "none.stl": ("solid a\nendsolid a\n", MeshError),
     "magic.npz": (b"PK\x03\x04 and then nothing", FormatError),
     "unknown.xyz": ("0 0 0\n", FormatError),

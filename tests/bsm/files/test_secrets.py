@@ -64,19 +64,39 @@ def secret(path: Path) -> None:
         case "raw":
             path.write_bytes(HEAT.tobytes())
         case "bin":
-            path.write_bytes(np.array([[0, 0, 0], [NUMBER, 0, 0], [0, 1, 0]], "f4").tobytes() + b"\0\1\2\0")
+            path.write_bytes(
+                np.array([[0, 0, 0], [NUMBER, 0, 0], [0, 1, 0]], "f4").tobytes() + b"\0\1\2\0"
+            )
         case "png":
             path.write_bytes(PNG + WORD.encode())
         case "mtl":
             path.write_text(f"newmtl {WORD}\nKd 1 0 0\n")
         case "geo":
-            lines = ["first", "second", "node id assign", "element id assign", "part", f"{1:10}", WORD, "coordinates"]
-            lines += [f"{3:10}", *(f"{x:12.5e}" for x in (0, NUMBER, 0, 0, 0, 1, 0, 0, 0)), "tria3", f"{1:10}"]
+            lines = [
+                "first",
+                "second",
+                "node id assign",
+                "element id assign",
+                "part",
+                f"{1:10}",
+                WORD,
+                "coordinates",
+            ]
+            lines += [
+                f"{3:10}",
+                *(f"{x:12.5e}" for x in (0, NUMBER, 0, 0, 0, 1, 0, 0, 0)),
+                "tria3",
+                f"{1:10}",
+            ]
             path.write_text("\n".join([*lines, f"{1:10}{2:10}{3:10}"]) + "\n")
         case "bdf":
-            path.write_text(f"GRID,1,,0.,0.,0.\nGRID,2,,{NUMBER},0.,0.\nGRID,3,,0.,1.,0.\nCTRIA3,1,1,1,2,3\n")
+            path.write_text(
+                f"GRID,1,,0.,0.,0.\nGRID,2,,{NUMBER},0.,0.\nGRID,3,,0.,1.,0.\nCTRIA3,1,1,1,2,3\n"
+            )
         case "inp":
-            path.write_text(f"*NODE\n1,0,0,0\n2,{NUMBER},0,0\n3,0,1,0\n*ELEMENT, TYPE=S3\n1,1,2,3\n")
+            path.write_text(
+                f"*NODE\n1,0,0,0\n2,{NUMBER},0,0\n3,0,1,0\n*ELEMENT, TYPE=S3\n1,1,2,3\n"
+            )
         case "obj":
             path.write_text(TRIANGLE.replace("v 1", f"v {NUMBER}"))
         case _:
@@ -86,9 +106,15 @@ def secret(path: Path) -> None:
 def cgns(file: "h5py.File", values: np.ndarray, link: str = "") -> None:
     """Write a surface as CGNS has it, whose solution may be in another file."""
 
-    def node(above: "h5py.Group", name: str, label: str, kind: str = "MT", data: object = None) -> "h5py.Group":
+    def node(
+        above: "h5py.Group", name: str, label: str, kind: str = "MT", data: object = None
+    ) -> "h5py.Group":
         one = above.create_group(name) if name else above
-        for key, text, size in (("name", name or "HDF5 MotherNode", 33), ("label", label, 33), ("type", kind, 3)):
+        for key, text, size in (
+            ("name", name or "HDF5 MotherNode", 33),
+            ("label", label, 33),
+            ("type", kind, 3),
+        ):
             one.attrs.create(key, np.bytes_(text.encode()), dtype=f"S{size}")
         if name:
             one.attrs["flags"] = np.array([1], np.int32)
@@ -146,7 +172,9 @@ def xdmf(values: str) -> str:
     def item(words: str, dims: str, form: str = "XML") -> str:
         return f'<DataItem Dimensions="{dims}" Format="{form}">{words}</DataItem>'
 
-    places, corners = (" ".join(map(str, np.ravel(table))) for table in (POINTS, [corners for _, corners in CELLS]))
+    places, corners = (
+        " ".join(map(str, np.ravel(table))) for table in (POINTS, [corners for _, corners in CELLS])
+    )
     grid = f'<Topology TopologyType="Quadrilateral" NumberOfElements="3">{item(corners, "3 4")}</Topology>'
     grid += f'<Geometry GeometryType="XYZ">{item(places, "12 3")}</Geometry>'
     grid += f'<Attribute Name="heat" Center="Node">{item(values, "12", "HDF")}</Attribute>'
@@ -210,7 +238,9 @@ for _suffix in ("pvtu", "vtu", "vtm"):  # VTK goes by the type, and not by the s
 @case("vtm, blocks", "vtu")
 def _(folder: Path, name: str) -> None:
     text = f'<vtkMultiBlockDataSet><DataSet index="0" file="{name}"/></vtkMultiBlockDataSet>'
-    (folder / "a.vtm").write_text(f'<VTKFile type="vtkMultiBlockDataSet" version="1.0">{text}</VTKFile>')
+    (folder / "a.vtm").write_text(
+        f'<VTKFile type="vtkMultiBlockDataSet" version="1.0">{text}</VTKFile>'
+    )
 
 
 @case("vtpc, partitions", "vtu")
@@ -230,7 +260,9 @@ def _(folder: Path, name: str) -> None:
 def _(folder: Path, name: str) -> None:
     (folder / "system").mkdir()
     head = "FoamFile{version 2.0;format ascii;class dictionary;object controlDict;}"
-    (folder / "system" / "controlDict").write_text(f'{head}\n#include "{name}"\nstartTime 0;endTime 1;deltaT 1;\n')
+    (folder / "system" / "controlDict").write_text(
+        f'{head}\n#include "{name}"\nstartTime 0;endTime 1;deltaT 1;\n'
+    )
     (folder / "a.foam").write_text("")
 
 
@@ -274,7 +306,9 @@ def _(folder: Path, name: str) -> None:
     pytest.importorskip("pxr", reason="needs the extra usd")
     from tests.bsm.files.test_usd_references import LOOK, MESH, stage
 
-    (folder / "a.usda").write_text(stage(MESH + LOOK % {"above": "", "file": f"asset inputs:file = @{name}@"}))
+    (folder / "a.usda").write_text(
+        stage(MESH + LOOK % {"above": "", "file": f"asset inputs:file = @{name}@"})
+    )
 
 
 @case("obj, mtllib", "mtl")
@@ -303,10 +337,21 @@ def _gltf(image: str, buffer: str) -> str:
         {"bufferView": 1, "componentType": 5121, "count": 3, "type": "SCALAR"},
     ]
     primitive = {"attributes": {"POSITION": 0}, "indices": 1, "material": 0}
-    tree = {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}]}
+    tree = {
+        "asset": {"version": "2.0"},
+        "scene": 0,
+        "scenes": [{"nodes": [0]}],
+        "nodes": [{"mesh": 0}],
+    }
     tree |= {"meshes": [{"primitives": [primitive]}], "accessors": accessors, "bufferViews": views}
-    tree |= {"buffers": [{"byteLength": 39, "uri": buffer}], "images": [{"uri": image}], "textures": [{"source": 0}]}
-    return json.dumps(tree | {"materials": [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}]})
+    tree |= {
+        "buffers": [{"byteLength": 39, "uri": buffer}],
+        "images": [{"uri": image}],
+        "textures": [{"source": 0}],
+    }
+    return json.dumps(
+        tree | {"materials": [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}]}
+    )
 
 
 @case("gltf, buffer", "bin")
@@ -318,7 +363,11 @@ def _(folder: Path, name: str) -> None:
 @case("gltf, image", "png")
 def _(folder: Path, name: str) -> None:
     secret(folder / "own.bin")
-    data = (folder / "own.bin").read_bytes().replace(np.float32(NUMBER).tobytes(), np.float32(1).tobytes())
+    data = (
+        (folder / "own.bin")
+        .read_bytes()
+        .replace(np.float32(NUMBER).tobytes(), np.float32(1).tobytes())
+    )
     (folder / "a.gltf").write_text(
         _gltf(name, "data:application/octet-stream;base64," + base64.b64encode(data).decode())
     )
@@ -363,7 +412,10 @@ def _(folder: Path, name: str) -> None:
 def _(folder: Path, name: str) -> None:
     pytest.importorskip("lib3mf", reason="needs the extra formats")
     bsm.save(bsm.TriangleMesh(POINTS, [[0, 1, 5], [0, 5, 4], [1, 2, 6]]), folder / "own.3mf")
-    with zipfile.ZipFile(folder / "own.3mf") as own, zipfile.ZipFile(folder / "a.3mf", "w") as other:
+    with (
+        zipfile.ZipFile(folder / "own.3mf") as own,
+        zipfile.ZipFile(folder / "a.3mf", "w") as other,
+    ):
         for entry in own.namelist():
             other.writestr(entry, own.read(entry))
         kind = "http://schemas.microsoft.com/3dmanufacturing/2013/01/3dtexture"
@@ -387,12 +439,16 @@ def _(folder: Path, name: str) -> None:
 @case("pvd, files", "obj")
 def _(folder: Path, name: str) -> None:
     rows = "".join(f'<DataSet timestep="{time}" file="{name}"/>' for time in range(2))
-    (folder / "a.pvd").write_text(f'<VTKFile type="Collection"><Collection>{rows}</Collection></VTKFile>')
+    (folder / "a.pvd").write_text(
+        f'<VTKFile type="Collection"><Collection>{rows}</Collection></VTKFile>'
+    )
 
 
 @case("series, files", "obj")
 def _(folder: Path, name: str) -> None:
-    (folder / "a.series").write_text(json.dumps({"files": [{"name": name, "time": time} for time in range(2)]}))
+    (folder / "a.series").write_text(
+        json.dumps({"files": [{"name": name, "time": time} for time in range(2)]})
+    )
 
 
 # -------------------------------------------------------------------------------------------------- the search
@@ -415,7 +471,9 @@ def said_of(path: Path, *, isolated: bool | None) -> tuple[str, bool]:
     except bsm.BsmError as error:
         return str(error), False
     tables = [decoded.positions, *(attribute.values for attribute in decoded.attributes)]
-    return words + str(dict(decoded.metadata)), any(bool((np.abs(table - NUMBER) < 1).any()) for table in tables)
+    return words + str(dict(decoded.metadata)), any(
+        bool((np.abs(table - NUMBER) < 1).any()) for table in tables
+    )
 
 
 def outcome(path: Path, *, isolated: bool | None) -> bool:
@@ -426,14 +484,23 @@ def outcome(path: Path, *, isolated: bool | None) -> bool:
 def written(folder: Path, name: str, means: str) -> Path:
     """Write a file of a case into a folder that is new, naming its secret in some way; return it."""
     suffix, make = CASES[name]
-    place = {"beside": folder / "other", "own": folder / "in"}.get(means, folder) / f"secret.{suffix}"
+    place = {"beside": folder / "other", "own": folder / "in"}.get(
+        means, folder
+    ) / f"secret.{suffix}"
     (folder / "in").mkdir()
-    ways = {"beside": f"../other/{place.name}", "own": place.name, "absolute": str(place), "link": f"link.{suffix}"}
+    ways = {
+        "beside": f"../other/{place.name}",
+        "own": place.name,
+        "absolute": str(place),
+        "link": f"link.{suffix}",
+    }
     make(folder / "in", ways.get(means, f"../{place.name}"))
     secret(place)
     if means == "link":
         (folder / "in" / f"link.{suffix}").symlink_to(place)
-    return next(path for path in (folder / "in").iterdir() if path.stem == "a" and path.suffix != ".mtl")
+    return next(
+        path for path in (folder / "in").iterdir() if path.stem == "a" and path.suffix != ".mtl"
+    )
 
 
 @pytest.mark.parametrize("means", ["above", "beside", "absolute", "link"])
@@ -452,7 +519,9 @@ UNREAD = ("raw", "exo", "foam", "entity", "include", "relation", "expression", "
 """Means by which not even files of the own folder are read."""
 
 
-@pytest.mark.parametrize("name", [name for name in CASES if not any(word in name for word in UNREAD)])
+@pytest.mark.parametrize(
+    "name", [name for name in CASES if not any(word in name for word in UNREAD)]
+)
 def test_files_of_the_own_folder_are_read_by_the_same_means(name, tmp_path):
     assert outcome(written(tmp_path, name, "own"), isolated=None)
 
@@ -487,7 +556,9 @@ def test_frames_of_strangers_are_no_links_to_other_folders(tmp_path):
     with pytest.raises(bsm.FormatError, match="link to another folder"):
         sequence_in(tmp_path / "in", isolated=True)
     for words in ((), ("--frames", "0:2")):
-        done = bsm_of("encode", tmp_path / "in", "-o", tmp_path / "a.bsm", "--untrusted", *words, text=True)
+        done = bsm_of(
+            "encode", tmp_path / "in", "-o", tmp_path / "a.bsm", "--untrusted", *words, text=True
+        )
         assert done.returncode != 0 and "link to another folder" in done.stderr
     assert sequence_in(tmp_path / "in").count == 2
 

@@ -15,8 +15,20 @@ pytest.importorskip("lxml", reason="needs the extra simulation")
 pytest.importorskip("vtkmodules", reason="needs the extra simulation")
 POINTS = np.array([(x, y, z) for z in (0, 1) for y in (0, 1) for x in (0, 1, 2)], float)
 CUBES = [[0, 1, 4, 3, 6, 7, 10, 9], [1, 2, 5, 4, 7, 8, 11, 10]]
-KINDS = {"vtk": "vtk", "vtu": "vtu", "inp": "abaqus", "nas": "nastran", "msh": "gmsh", "xdmf": "xdmf"}
-CORNERS = {"tetra": [0, 1, 3, 6], "pyramid": [0, 1, 4, 3, 6], "wedge": [0, 1, 3, 6, 7, 9], "hexahedron": CUBES[0]}
+KINDS = {
+    "vtk": "vtk",
+    "vtu": "vtu",
+    "inp": "abaqus",
+    "nas": "nastran",
+    "msh": "gmsh",
+    "xdmf": "xdmf",
+}
+CORNERS = {
+    "tetra": [0, 1, 3, 6],
+    "pyramid": [0, 1, 4, 3, 6],
+    "wedge": [0, 1, 3, 6, 7, 9],
+    "hexahedron": CUBES[0],
+}
 VOLUMES = {"tetra": 1 / 6, "pyramid": 1 / 3, "wedge": 1 / 2, "hexahedron": 1}
 
 
@@ -31,14 +43,17 @@ def test_a_volume_of_each_format_is_its_skin_with_its_data(suffix, tmp_path):
     path = tmp_path / f"a.{suffix}"
     more = {"binary": False} if suffix == "msh" else {}
     model = meshio.Mesh(POINTS, {"hexahedron": CUBES}, {"heat": np.arange(12.0)}, data)
-    with np.printoptions(legacy="1.21"):  # meshio writes values of Gmsh as `repr`, which numpy 2 gives a type
+    # Meshio writes values of Gmsh as `repr`, which numpy 2 gives a type.
+    with np.printoptions(legacy="1.21"):
         meshio.write(path, model, KINDS[suffix], **more)
     mesh, notes, dropped = vars(found := bsm.read_mesh(path)).values()
     assert (len(mesh.positions), len(mesh.faces), volume_of(mesh)) == (12, 20, pytest.approx(2))
     named = {attribute.name: attribute.values[:, 0] for attribute in mesh.attributes}
     order = np.lexsort(mesh.positions.T)
     sides = 1.0 + (mesh.positions[mesh.faces].mean(axis=1)[:, 0] > 1)
-    assert not data or (named["heat"][order].tolist() == [*range(12)] and (named["kind"] == sides).all())
+    assert not data or (
+        named["heat"][order].tolist() == [*range(12)] and (named["kind"] == sides).all()
+    )
     assert "the inside of volumes" in dropped and dropped[0] in notes[1] and found.mesh is mesh
     path.write_bytes(path.read_bytes()[: path.stat().st_size // 3])
     with pytest.raises(bsm.BsmError):
@@ -51,8 +66,15 @@ def test_volumes_are_seen_from_outside_and_quadratic_ones_at_all_their_nodes(kin
     points, given, (_, edges, most) = POINTS * (1, 1, up), CORNERS[kind], _SHAPES[kind]
     middles = [points[[given[int(end)] for end in edge]].mean(axis=0) for edge in edges.split()]
     every = [*given, *range(12, 12 + most - len(given))]
-    for name, cells, used in (kind, given, len(given)), (f"{kind}{most}", every, len(given) + len(middles)):
-        mesh = of_meshio(meshio.Mesh([*points, *middles, *points], {name: [cells]})).checked(bsm.Limits()).mesh
+    for name, cells, used in (
+        (kind, given, len(given)),
+        (f"{kind}{most}", every, len(given) + len(middles)),
+    ):
+        mesh = (
+            of_meshio(meshio.Mesh([*points, *middles, *points], {name: [cells]}))
+            .checked(bsm.Limits())
+            .mesh
+        )
         assert volume_of(mesh) == pytest.approx(VOLUMES[kind]) and len(mesh.positions) == used
 
 
@@ -64,10 +86,27 @@ def test_surfaces_stay_in_order_and_others_are_named():
         ("triangle", [[1, 2, 4], [2, 5, 4]]),
     )
     left = ("polyhedron4", [[[0, 1, 3], [0, 1, 6], [0, 3, 6], [1, 3, 6]]])
-    found = of_meshio(meshio.Mesh(POINTS, [*kinds, left], cell_data={"n": [[0], [1], [2], [3, 4], [5]]}))
-    assert found.dropped == ("cells of the type line (1)", "cells of the type polyhedron4 (1)", "the inside of volumes")
-    assert found.columns[0].values[:, 0].tolist() == [1, 2, 2, 2, 3, 4] and found.sizes.tolist() == [4, 3, 3, 3, 3, 3]
-    flat = of_meshio(meshio.Mesh(POINTS[:6, :2], [("quad9", [[0, 2, 5, 3, 1, 5, 4, 3, 4]])])).checked(bsm.Limits()).mesh
+    found = of_meshio(
+        meshio.Mesh(POINTS, [*kinds, left], cell_data={"n": [[0], [1], [2], [3, 4], [5]]})
+    )
+    assert found.dropped == (
+        "cells of the type line (1)",
+        "cells of the type polyhedron4 (1)",
+        "the inside of volumes",
+    )
+    assert found.columns[0].values[:, 0].tolist() == [
+        1,
+        2,
+        2,
+        2,
+        3,
+        4,
+    ] and found.sizes.tolist() == [4, 3, 3, 3, 3, 3]
+    flat = (
+        of_meshio(meshio.Mesh(POINTS[:6, :2], [("quad9", [[0, 2, 5, 3, 1, 5, 4, 3, 4]])]))
+        .checked(bsm.Limits())
+        .mesh
+    )
     assert len(flat.faces) == 6 and not flat.positions[:, 2].any()
 
 
@@ -83,7 +122,9 @@ def test_steps_are_frames(data, tmp_path, monkeypatch):
     assert frames.frame_rate == 4 and "left out: the inside of volumes" in frames.notes
     assert "later steps (2)" in bsm.read_mesh("a.xdmf").dropped
     if data == "HDF":
-        (tmp_path / "a.xdmf").write_text((tmp_path / "a.xdmf").read_text().replace("a.h5:", "../a.h5:"))
+        (tmp_path / "a.xdmf").write_text(
+            (tmp_path / "a.xdmf").read_text().replace("a.h5:", "../a.h5:")
+        )
         with pytest.raises(bsm.FormatError, match="not in the folder"):
             bsm.read_mesh("a.xdmf")
 
@@ -117,7 +158,9 @@ def test_skins_of_vtk_look_outwards_with_the_values_of_their_cells(kind, curved,
         first = len(points)
         points += [*np.add(POINTS, (move, 0, 0))]
         middles = [first + 12 + place for place in range(len(edges))]
-        points += [(POINTS[given[int(a)]] + POINTS[given[int(b)]]) / 2 + (move, 0, 0) for a, b in edges]
+        points += [
+            (POINTS[given[int(a)]] + POINTS[given[int(b)]]) / 2 + (move, 0, 0) for a, b in edges
+        ]
         cells.append((types[kind][curved], [*(first + corner for corner in given), *middles]))
     save_grid(tmp_path / "a.vtu", points, cells, {}, {"n": np.array([3, 8])})
     mesh = bsm.read_mesh(tmp_path / "a.vtu").mesh
@@ -137,13 +180,15 @@ def test_surface_cells_on_the_sides_of_volumes_are_there_once(suffix, curved, tm
     save_grid(tmp_path / f"a.{suffix}", points, cells, {}, {"n": np.array([9, 1, 2])})
     mesh = bsm.read_mesh(tmp_path / f"a.{suffix}").mesh
     assert volume_of(mesh) == pytest.approx(1 / 6) and len(mesh.faces) == (16 if curved else 4)
-    assert np.bincount(mesh.attributes[0].values[:, 0].astype(int), minlength=10)[[1, 2, 9]].tolist() == (
-        [4, 4, 8] if curved else [1, 1, 2]
-    )
+    assert np.bincount(mesh.attributes[0].values[:, 0].astype(int), minlength=10)[
+        [1, 2, 9]
+    ].tolist() == ([4, 4, 8] if curved else [1, 1, 2])
 
 
 def test_cells_of_another_piece_close_the_skin_and_go(tmp_path):
-    save_grid(tmp_path / "a.vtu", POINTS, HEXAHEDRA, {}, {"vtkGhostType": np.array([0, 1], np.uint8)})
+    save_grid(
+        tmp_path / "a.vtu", POINTS, HEXAHEDRA, {}, {"vtkGhostType": np.array([0, 1], np.uint8)}
+    )
     mesh = bsm.read_mesh(tmp_path / "a.vtu").mesh
     assert len(mesh.faces) == 10 and mesh.positions[mesh.faces].max() == 1
 
@@ -152,7 +197,9 @@ def test_a_collection_of_partitions_is_read(tmp_path):
     model = pytest.importorskip("vtkmodules.vtkCommonDataModel").vtkPartitionedDataSetCollection()
     model.SetPartition(0, 0, grid(POINTS, HEXAHEDRA[:1]))
     model.SetPartition(1, 0, grid(POINTS, HEXAHEDRA[1:]))
-    writer = pytest.importorskip("vtkmodules.vtkIOParallelXML").vtkXMLPartitionedDataSetCollectionWriter()
+    writer = pytest.importorskip(
+        "vtkmodules.vtkIOParallelXML"
+    ).vtkXMLPartitionedDataSetCollectionWriter()
     writer.SetFileName(str(tmp_path / "a.vtpc"))
     writer.SetInputData(model)
     assert writer.Write()
@@ -169,24 +216,35 @@ PIECE = (
 )
 WRITTEN = {
     "strips.vtk": (
-        LEGACY + "POLYDATA\nPOINTS 4 float\n0 0 0 1 0 0 0 1 0 1 1 0\nTRIANGLE_STRIPS 1 5\n4 0 1 2 3\n",
+        LEGACY
+        + "POLYDATA\nPOINTS 4 float\n0 0 0 1 0 0 0 1 0 1 1 0\nTRIANGLE_STRIPS 1 5\n4 0 1 2 3\n",
         2,
         1,
     ),
     "lines.vtk": (
-        LEGACY + "POLYDATA\nPOINTS 4 float\n0 0 0 1 0 0 1 1 0 0 1 0\nLINES 1 3\n2 0 1\nPOLYGONS 1 5\n4 0 1 2 3\n"
+        LEGACY
+        + "POLYDATA\nPOINTS 4 float\n0 0 0 1 0 0 1 1 0 0 1 0\nLINES 1 3\n2 0 1\nPOLYGONS 1 5\n4 0 1 2 3\n"
         "CELL_DATA 2\nSCALARS n int 1\nLOOKUP_TABLE default\n7 8\n",
         2,
         1,
     ),
-    "flat.vtk": (LEGACY + "STRUCTURED_POINTS\nDIMENSIONS 3 2 1\nORIGIN 0 0 0\nSPACING 1 1 1\n", 4, 2),
+    "flat.vtk": (
+        LEGACY + "STRUCTURED_POINTS\nDIMENSIONS 3 2 1\nORIGIN 0 0 0\nSPACING 1 1 1\n",
+        4,
+        2,
+    ),
     "box.vtk": (
-        LEGACY + "RECTILINEAR_GRID\nDIMENSIONS 2 2 2\nX_COORDINATES 2 float\n0 1\nY_COORDINATES 2 float\n0 1\n"
+        LEGACY
+        + "RECTILINEAR_GRID\nDIMENSIONS 2 2 2\nX_COORDINATES 2 float\n0 1\nY_COORDINATES 2 float\n0 1\n"
         "Z_COORDINATES 2 float\n0 1\n",
         12,
         6,
     ),
-    "pieces.vtu": (XML.format("UnstructuredGrid", "", PIECE.format(0, 1) + PIECE.format(5, 7)), 2, 1.5),
+    "pieces.vtu": (
+        XML.format("UnstructuredGrid", "", PIECE.format(0, 1) + PIECE.format(5, 7)),
+        2,
+        1.5,
+    ),
 }
 
 
@@ -196,15 +254,27 @@ def test_kinds_of_data_of_vtk(name, tmp_path):
     (tmp_path / name).write_text(text)
     mesh, _, dropped = vars(bsm.read_mesh(tmp_path / name)).values()
     a, b, c = mesh.positions[mesh.faces.T]
-    assert len(mesh.faces) == faces and np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2 == pytest.approx(area)
-    assert name != "lines.vtk" or (mesh.attributes[0].values[:, 0].tolist() == [8, 8] and "points and lines" in dropped)
+    assert len(mesh.faces) == faces and np.linalg.norm(
+        np.cross(b - a, c - a), axis=1
+    ).sum() / 2 == pytest.approx(area)
+    assert name != "lines.vtk" or (
+        mesh.attributes[0].values[:, 0].tolist() == [8, 8] and "points and lines" in dropped
+    )
 
 
 @pytest.mark.parametrize(
     ("name", "text", "why"),
     [
-        ("a.vtk", LEGACY + "STRUCTURED_POINTS\nDIMENSIONS 2000 2000 2000\n", "2000 x 2000 x 2000.*contour"),
-        ("a.vti", XML.format("ImageData", ' WholeExtent="0 299 0 299 0 299"', ""), "300 x 300 x 300"),
+        (
+            "a.vtk",
+            LEGACY + "STRUCTURED_POINTS\nDIMENSIONS 2000 2000 2000\n",
+            "2000 x 2000 x 2000.*contour",
+        ),
+        (
+            "a.vti",
+            XML.format("ImageData", ' WholeExtent="0 299 0 299 0 299"', ""),
+            "300 x 300 x 300",
+        ),
         (
             "a.vtk",
             LEGACY + "RECTILINEAR_GRID\nDIMENSIONS 900 900 900\nX_COORDINATES 2 float\n0 1\n",
@@ -265,7 +335,9 @@ def test_steps_of_exodus_are_frames(tmp_path):
     assert writer.Write()
     frames = sequence_in(str(tmp_path / "a.exo"))
     assert frames.count == 3 and frames.frame_rate == 2
-    assert [next(a for a in mesh.attributes if a.name == "heat").values[0, 0] for mesh in frames.meshes] == [0, 0.5, 1]
+    assert [
+        next(a for a in mesh.attributes if a.name == "heat").values[0, 0] for mesh in frames.meshes
+    ] == [0, 0.5, 1]
     assert "later steps (2)" in bsm.read_mesh(tmp_path / "a.exo").dropped
 
 
@@ -297,10 +369,14 @@ def test_a_folder_and_a_pattern_find_every_format_that_is_read(tmp_path):
 
 
 def test_an_order_of_nodes_in_xdmf_is_refused(tmp_path):
-    meshio.write(tmp_path / "a.xdmf", meshio.Mesh(POINTS, {"hexahedron": CUBES}), "xdmf", data_format="XML")
+    meshio.write(
+        tmp_path / "a.xdmf", meshio.Mesh(POINTS, {"hexahedron": CUBES}), "xdmf", data_format="XML"
+    )
     text = (tmp_path / "a.xdmf").read_text()
     assert len(bsm.read_mesh(tmp_path / "a.xdmf").mesh.faces) == 20
-    (tmp_path / "a.xdmf").write_text(text.replace("<Topology ", '<Topology Order="1 0 2 3 4 5 6 7" ', 1))
+    (tmp_path / "a.xdmf").write_text(
+        text.replace("<Topology ", '<Topology Order="1 0 2 3 4 5 6 7" ', 1)
+    )
     with pytest.raises(bsm.FormatError, match=r"order of nodes.*\.vtu"):
         bsm.read_mesh(tmp_path / "a.xdmf")
 
@@ -311,7 +387,10 @@ def test_the_name_of_a_file_tells_its_format_before_its_lines_do(tmp_path):
     text += "3 0 1 2\nPOINT_DATA 3\nFIELD f 2\nu 1 3 float\n1 2 3\nv 1 3 float\n4 5 6\n"
     (tmp_path / "a.vtk").write_text(text)
     mesh = bsm.read_mesh(tmp_path / "a.vtk").mesh
-    assert {a.name: a.values[:, 0].tolist() for a in mesh.attributes} == {"u": [1, 2, 3], "v": [4, 5, 6]}
+    assert {a.name: a.values[:, 0].tolist() for a in mesh.attributes} == {
+        "u": [1, 2, 3],
+        "v": [4, 5, 6],
+    }
     (tmp_path / "b.vtp").write_bytes(file_of(mesh, "vtp"))
     text = "<VTKFile type='PPolyData'><PPolyData><PPoints><PDataArray type='Float32' NumberOfComponents='3'/></PPoints>"
     pieces = "<Piece Source='b.vtp'/>" * 2

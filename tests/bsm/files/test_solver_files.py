@@ -81,7 +81,9 @@ def test_bulk_data_is_read_as_it_is_meant(what, tmp_path):
 
 ABAQUS = {
     "blocks, blanks and long lines": (
-        "*HEADING\nas written\n" + NODES + "*node, nset=more\n9,,,2.d0\n*ELEMENT, TYPE=S3R,\nELSET=b\n1,1,2,\n9\n",
+        "*HEADING\nas written\n"
+        + NODES
+        + "*node, nset=more\n9,,,2.d0\n*ELEMENT, TYPE=S3R,\nELSET=b\n1,1,2,\n9\n",
         1,
         1,
     ),
@@ -94,14 +96,25 @@ ABAQUS = {
         1,
     ),
     "instances": (
-        "*Part, name=A\n" + NODES + QUAD + "*End part\n*Assembly, name=x\n*Instance, name=A-1, part=a\n*End instance\n"
+        "*Part, name=A\n"
+        + NODES
+        + QUAD
+        + "*End part\n*Assembly, name=x\n*Instance, name=A-1, part=a\n*End instance\n"
         "*Instance, name=A-2, part=A\n0, 0, 5\n*End Instance\n*Node\n1, 9,9,9\n*End Assembly\n",
         2,
         2,
     ),
     "a part that is in no assembly": ("*Part, name=A\n" + NODES + QUAD + "*End Part\n", 1, 1),
-    "named sets": (NODES + QUAD + "*Nset, nset=n\n1, 2\n*ELSET,ELSET=pl\n1\n*Surface, name=s\npl, SPOS\n", 1, 1),
-    "beams and masses": (NODES + QUAD + "*Element, type=B31\n2, 1, 2\n*Element, type=MASS\n3, 1\n", 1, 1),
+    "named sets": (
+        NODES + QUAD + "*Nset, nset=n\n1, 2\n*ELSET,ELSET=pl\n1\n*Surface, name=s\npl, SPOS\n",
+        1,
+        1,
+    ),
+    "beams and masses": (
+        NODES + QUAD + "*Element, type=B31\n2, 1, 2\n*Element, type=MASS\n3, 1\n",
+        1,
+        1,
+    ),
 }
 
 
@@ -111,7 +124,10 @@ def test_input_of_abaqus_is_read_as_it_is_meant(what, tmp_path):
     mesh, notes, _ = vars(read(tmp_path / "a.inp", text)).values()
     numbers = next((a.values for a in mesh.attributes if a.name == "part"), np.zeros(1))
     assert area_of(mesh) == pytest.approx(area) and len(np.unique(numbers)) == parts
-    assert "beams" not in what or "left out: elements of the type B31 (1), elements of the type MASS (1)" in notes
+    assert (
+        "beams" not in what
+        or "left out: elements of the type B31 (1), elements of the type MASS (1)" in notes
+    )
 
 
 @pytest.mark.parametrize("isolated", [None, True])
@@ -119,7 +135,9 @@ def test_files_include_others(isolated, tmp_path):
     (tmp_path / "below").mkdir()
     (tmp_path / "below" / "n.inp").write_text(NODES)
     (tmp_path / "e.txt").write_text("1, 1,2,3,4")
-    (tmp_path / "a.inp").write_text('*INCLUDE, INPUT="below/n.inp"\n*Element, input=e.txt, type=S4\n*Step\n')
+    (tmp_path / "a.inp").write_text(
+        '*INCLUDE, INPUT="below/n.inp"\n*Element, input=e.txt, type=S4\n*Step\n'
+    )
     (tmp_path / "g.dat").write_text("include 'below/more.dat'\n" + GRIDS[17:])
     (tmp_path / "below" / "more.dat").write_text(GRIDS[:17])
     (tmp_path / "a.bdf").write_text("BEGIN BULK\nINCLUDE 'g.\n dat'\nCQUAD4,1,7,1,2,3,4\nENDDATA\n")
@@ -128,7 +146,9 @@ def test_files_include_others(isolated, tmp_path):
 
 
 def test_sets_of_elements_are_groups(tmp_path):
-    found = read(tmp_path / "a.inp", NODES + "9, 2,0,0\n" + QUAD + "*Element, type=S3, elset=b\n2, 2,9,3\n").mesh
+    found = read(
+        tmp_path / "a.inp", NODES + "9, 2,0,0\n" + QUAD + "*Element, type=S3, elset=b\n2, 2,9,3\n"
+    ).mesh
     assert [found.metadata[f"group.{n}.name"] for n in range(2)] == ["a", "b"]
     assert found.attributes[0].values[:, 0].tolist() == [0, 0, 1]
 
@@ -147,7 +167,10 @@ REFUSED = {
         ("INCLUDE 'a.bdf'\n", "included twice"),
         ("GRDSET,,5\n", "GRDSET"),
         ("CQUADX,1,1,1,2,3\n", "CQUADX"),
-        ("CORD3G,5,,0.,0.,0.,0.,0.,1.,\n,1.,0.,0.\nGRID,1,5,0.,0.,0.\n", "coordinate system 5 is not there"),
+        (
+            "CORD3G,5,,0.,0.,0.,0.,0.,1.,\n,1.,0.,0.\nGRID,1,5,0.,0.,0.\n",
+            "coordinate system 5 is not there",
+        ),
         ("BEGIN BULK\nBEGIN SUPER=1\n", "BEGIN SUPER=1"),
         (GRIDS + "GRID,1,,5.,5.,5.\nCTRIA3,1,7,1,2,3\n", "node 1 is there twice"),
         (GRIDS + "CTRIA3,1,7,1,2,8\n", "node 8 is not there"),
@@ -180,12 +203,17 @@ REFUSED = {
         (TWICE.replace("1 2 2 1 1 1 2 3", "1 21 2 1 1 1 2 3"), "type 21 .*-order 2"),
         (TWICE.replace("2.2 0 8", "1 0 8"), "the version 1"),
         ("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Faces\n$EndFaces\n", "Faces is not read here"),
-        ("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n3\n1 0 0 0\n$EndNodes\n", "ends amid its numbers"),
+        (
+            "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n3\n1 0 0 0\n$EndNodes\n",
+            "ends amid its numbers",
+        ),
     ),
 }
 
 
-@pytest.mark.parametrize(("name", "text", "why"), [(name, *case) for name, cases in REFUSED.items() for case in cases])
+@pytest.mark.parametrize(
+    ("name", "text", "why"), [(name, *case) for name, cases in REFUSED.items() for case in cases]
+)
 def test_what_may_change_the_mesh_is_refused_by_name(name, text, why, tmp_path):
     with pytest.raises(bsm.BsmError) as error:
         read(tmp_path / name, text)
@@ -216,7 +244,12 @@ def test_partitions_parameters_and_views_of_gmsh(version, binary, tmp_path):
         gmsh.model.mesh.recombine()
         gmsh.model.mesh.partition(2)
         parametric = version > 3  # in version 2, parameters are a section that is refused
-        options = {"MshFileVersion": version, "Binary": binary, "SaveAll": 1, "SaveParametric": parametric}
+        options = {
+            "MshFileVersion": version,
+            "Binary": binary,
+            "SaveAll": 1,
+            "SaveParametric": parametric,
+        }
         for option, value in options.items():
             gmsh.option.setNumber(f"Mesh.{option}", value)
         gmsh.write(path)
@@ -224,13 +257,16 @@ def test_partitions_parameters_and_views_of_gmsh(version, binary, tmp_path):
         view = gmsh.view.add("x")
         for step in range(2):
             values = [[x + step] for x in places[::3]]
-            gmsh.view.addModelData(view, step, gmsh.model.getCurrent(), "NodeData", tags, values, step)
+            gmsh.view.addModelData(
+                view, step, gmsh.model.getCurrent(), "NodeData", tags, values, step
+            )
         gmsh.view.write(view, str(tmp_path / "view.msh"))
     finally:
         gmsh.finalize()
     found = bsm.read_mesh(path)
     assert area_of(found.mesh) == pytest.approx(2)
-    assert ("the group plate" in found.dropped) == (version < 3)  # with SaveAll, Gmsh writes none there
+    # With SaveAll, Gmsh writes none there.
+    assert ("the group plate" in found.dropped) == (version < 3)
     moving = sequence_in(str(tmp_path / "view.msh"))
     assert moving.count == 2 and moving.frame_rate == 1
     for step, mesh in enumerate(moving.meshes):
@@ -265,19 +301,29 @@ def test_files_of_gmsh(version, binary, order, tmp_path, monkeypatch):
         rows = "".join(f"{number} {of[number] + step}\n" for number in sorted(of, reverse=True))
         with open(path, "a") as file:
             file.write(f"$MeshFormat\n{version:g} 0 8\n$EndMeshFormat\n")
-            file.write(f'$NodeData\n1\n"x"\n1\n{step}\n3\n{step}\n1\n{len(of)}\n{rows}$EndNodeData\n')
+            file.write(
+                f'$NodeData\n1\n"x"\n1\n{step}\n3\n{step}\n1\n{len(of)}\n{rows}$EndNodeData\n'
+            )
     mesh, _, dropped = vars(bsm.read_mesh(path)).values()
     values = next((a.values[:, 0] for a in mesh.attributes if a.name == "x"), mesh.positions[:, 0])
     assert np.allclose(values, mesh.positions[:, 0]) and (binary or "later steps (1)" in dropped)
-    assert area_of(mesh) == pytest.approx(22 + 1) and box_of(mesh) == pytest.approx([0, 0, 0, 6, 2, 3])
+    assert area_of(mesh) == pytest.approx(22 + 1) and box_of(mesh) == pytest.approx(
+        [0, 0, 0, 6, 2, 3]
+    )
     numbers = next(a.values[:, 0] for a in mesh.attributes if a.name == "group")
     sides = mesh.positions[mesh.faces].mean(axis=1)[:, 0] > 4
     names = [mesh.metadata[f"group.{n}.name"] for n in range(2)]
-    assert [names[number] for number in numbers] == ["plate" if side else "inside" for side in sides]
+    assert [names[number] for number in numbers] == [
+        "plate" if side else "inside" for side in sides
+    ]
 
     if not binary:
         moving = sequence_in(path)
-        assert moving.count == 2 and moving.frame_rate == 1 and "later steps" not in " ".join(moving.notes)
+        assert (
+            moving.count == 2
+            and moving.frame_rate == 1
+            and "later steps" not in " ".join(moving.notes)
+        )
         second = [*moving.meshes][1]
         at = next(a.values[:, 0] for a in second.attributes if a.name == "x")
         assert np.allclose(at, second.positions[:, 0] + 1)
@@ -287,7 +333,9 @@ def test_files_of_gmsh(version, binary, order, tmp_path, monkeypatch):
 @pytest.mark.parametrize("last", [3, 2**31 - 1])
 def test_numbers_of_nodes_may_be_far_apart(version, last, tmp_path):
     numbers, places = [1, 2, last], np.array([[0, 0, 0], [2, 0, 0], [0, 1, 0]], np.float64)
-    rows = b"".join(struct.pack("<i3d", number, *place) for number, place in zip(numbers, places, strict=True))
+    rows = b"".join(
+        struct.pack("<i3d", number, *place) for number, place in zip(numbers, places, strict=True)
+    )
     if version == b"2.2":
         nodes = b"3\n" + rows
         elements = b"1\n" + struct.pack("<3i", 2, 1, 0) + struct.pack("<4i", 1, 1, 2, last)
@@ -299,7 +347,9 @@ def test_numbers_of_nodes_may_be_far_apart(version, last, tmp_path):
         elements = struct.pack("<4Q3iQ4Q", 1, 1, 1, 1, 2, 1, 2, 1, 1, 1, 2, last)
     head = b"$MeshFormat\n" + version + b" 1 8\n" + struct.pack("<i", 1) + b"\n$EndMeshFormat\n"
     path = tmp_path / "a.msh"
-    path.write_bytes(head + b"$Nodes\n" + nodes + b"\n$EndNodes\n$Elements\n" + elements + b"\n$EndElements\n")
+    path.write_bytes(
+        head + b"$Nodes\n" + nodes + b"\n$EndNodes\n$Elements\n" + elements + b"\n$EndElements\n"
+    )
     assert area_of(bsm.read_mesh(path).mesh) == pytest.approx(1)
 
 
@@ -327,7 +377,9 @@ def test_elements_of_several_groups_are_there_once(version, tmp_path):
 
 
 def test_files_of_pynastran(tmp_path):
-    bdf = pytest.importorskip("pyNastran.bdf.bdf", reason="files are written with pyNastran: pip install pyNastran")
+    bdf = pytest.importorskip(
+        "pyNastran.bdf.bdf", reason="files are written with pyNastran: pip install pyNastran"
+    )
     model, rng = bdf.BDF(debug=None), np.random.default_rng(3)
     model.add_cord2r(5, [10.0, 1.0, 2.0], [10.0, 1.0, 3.0], [10.0, 2.0, 2.0])
     model.add_cord2c(6, [1.0, 40.0, 2.0], [1.0, 50.0, 3.0], [1.0, 2.0, 2.0], rid=5)
@@ -336,7 +388,9 @@ def test_files_of_pynastran(tmp_path):
     for number, place in enumerate(places.tolist(), 1):
         model.add_grid(number, place, cp=(0, 5, 6, 9)[number % 4])
     for number in range(1, 16):
-        model.add_ctria3(number, 7, [number, number + 1, number + 4], theta_mcid=30.0 * (number % 3))
+        model.add_ctria3(
+            number, 7, [number, number + 1, number + 4], theta_mcid=30.0 * (number % 3)
+        )
     model.add_chexa(99, 8, [*range(1, 9)])
     model.add_pshell(7, 1, 0.1)
     model.add_psolid(8, 1)
@@ -350,7 +404,9 @@ def test_files_of_pynastran(tmp_path):
         numbers = np.array([[number, number + 1, number + 4] for number in range(1, 16)]) - 1
         a, b, c = theirs[numbers].swapaxes(0, 1)
         shells = mesh.attributes[0].values[:, 0] == 7
-        ours = np.linalg.norm(np.cross(*np.diff(mesh.positions[mesh.faces[shells]], axis=1).swapaxes(0, 1)), axis=1)
+        ours = np.linalg.norm(
+            np.cross(*np.diff(mesh.positions[mesh.faces[shells]], axis=1).swapaxes(0, 1)), axis=1
+        )
         assert ours == pytest.approx(np.linalg.norm(np.cross(b - a, c - a), axis=1), rel=1e-4)
         assert len(mesh.positions) == 19 and (~shells).sum() == 12
 
@@ -358,4 +414,6 @@ def test_files_of_pynastran(tmp_path):
 def test_lines_of_no_stl_are_named(tmp_path):
     facet = "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n"
     found = read(tmp_path / "a.stl", f"solid a\ncolor 1 0 0\n{facet}endsolid a\n")
-    assert area_of(found.mesh) == pytest.approx(0.5) and found.dropped == ("lines that begin with color",)
+    assert area_of(found.mesh) == pytest.approx(0.5) and found.dropped == (
+        "lines that begin with color",
+    )

@@ -68,11 +68,15 @@ def test_what_was_there_stays_another_time(store):
     assert store.cat("/out/mesh.bsm") == before
 
 
-@pytest.mark.parametrize("name", ["..ply", "%2e%2e%2fx.ply", "x\ny.ply", "\x1b[2J.ply", "ü網.ply", "a#b.ply"])
+@pytest.mark.parametrize(
+    "name", ["..ply", "%2e%2e%2fx.ply", "x\ny.ply", "\x1b[2J.ply", "ü網.ply", "a#b.ply"]
+)
 def test_malicious_names_stay_in_their_folder(name, store, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     store.pipe(f"/in/{name}", store.cat("/in/mesh.ply"))
     (facts,) = bsm.encode_many([f"memory://in/{name}"], "memory://out/", grid=8)
     assert "error" not in facts
-    assert [found for found in store.find("/") if not found.startswith("/in/")] == [f"/out/{name[:-4]}.bsm"]
+    assert [found for found in store.find("/") if not found.startswith("/in/")] == [
+        f"/out/{name[:-4]}.bsm"
+    ]
     assert not list(tmp_path.iterdir())

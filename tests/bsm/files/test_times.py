@@ -24,7 +24,9 @@ def opened(path, **keywords):
 
 def written(path, kind, metadata):
     shared = Shared(metadata=lambda: metadata)
-    with sequence_writer(str(path), kind, SHAPE.faces, COUNT, overwrite=True, shared=shared) as write:
+    with sequence_writer(
+        str(path), kind, SHAPE.faces, COUNT, overwrite=True, shared=shared
+    ) as write:
         for number in range(COUNT):
             write(SHAPE.positions + number)
     return shared.left_out
@@ -43,7 +45,10 @@ def test_numbers_of_frames_go_in_and_out(kind, start, step, tmp_path):
     for number in range(COUNT):
         save(SHAPE, tmp_path / f"in/f_{start + number * step:04d}.{kind}")
     source = opened(tmp_path / "in")
-    assert source.metadata.get("frame_start", 0) == start and source.metadata.get("frame_step", 1) == step
+    assert (
+        source.metadata.get("frame_start", 0) == start
+        and source.metadata.get("frame_step", 1) == step
+    )
     assert written(tmp_path / f"out/g_%04d.{kind}", kind, source.metadata) == []
     assert {path.stem[2:] for path in (tmp_path / "out").iterdir()} == {
         path.stem[2:] for path in (tmp_path / "in").iterdir()
@@ -57,16 +62,28 @@ def test_times_of_files_and_of_lists_go_in_and_out(form, times, tmp_path):
     (tmp_path / "in").mkdir()
     for number, time in enumerate(times):
         known = {"TimeValue": time} if form == "vtp" else {}
-        save(TriangleMesh(SHAPE.positions + number, SHAPE.faces, (), known), tmp_path / f"in/f_{number}.vtp")
+        save(
+            TriangleMesh(SHAPE.positions + number, SHAPE.faces, (), known),
+            tmp_path / f"in/f_{number}.vtp",
+        )
     rows = [(f"in/f_{number}.vtp", time) for number, time in enumerate(times)][::-1]
     sets = "".join(f'<DataSet timestep="{time}" part="0" file="{name}"/>' for name, time in rows)
-    (tmp_path / "a.pvd").write_text(f'<VTKFile type="Collection"><Collection>{sets}</Collection></VTKFile>')
+    (tmp_path / "a.pvd").write_text(
+        f'<VTKFile type="Collection"><Collection>{sets}</Collection></VTKFile>'
+    )
     listed = [{"name": name, "time": time} for name, time in rows]
-    (tmp_path / "a.vtp.series").write_text(json.dumps({"file-series-version": "1.0", "files": listed}))
+    (tmp_path / "a.vtp.series").write_text(
+        json.dumps({"file-series-version": "1.0", "files": listed})
+    )
     source = opened(tmp_path / {"vtp": "in", "pvd": "a.pvd", "series": "a.vtp.series"}[form])
     assert timing(source) == pytest.approx(times) and "TimeValue" not in source.metadata
-    assert [frame[0, 0] for frame in source.frames] == pytest.approx(SHAPE.positions[0, 0] + np.arange(COUNT))
-    metadata = {**source.metadata, **({"frame_rate": source.frame_rate} if source.frame_rate else {})}
+    assert [frame[0, 0] for frame in source.frames] == pytest.approx(
+        SHAPE.positions[0, 0] + np.arange(COUNT)
+    )
+    metadata = {
+        **source.metadata,
+        **({"frame_rate": source.frame_rate} if source.frame_rate else {}),
+    }
     assert written(tmp_path / "out", "vtp", metadata) == []
     assert timing(opened(tmp_path / "out")) == pytest.approx(times)
 
@@ -115,12 +132,9 @@ def test_a_clip_begins_when_it_did(start, kept, tmp_path):
     left = written(tmp_path / "a.glb", "glb", {"frame_start": start, "frame_rate": 24.0})
     assert left == ([] if kept else ["the number of the first frame"])
     source = opened(tmp_path / "a.glb")
-    assert timing(source) == pytest.approx(kept + np.arange(COUNT) / 24) and not FORMATS["glb"].times - {
-        "frame_start",
-        "frame_step",
-        "frame_times",
-        "frame_rate",
-    }
+    assert timing(source) == pytest.approx(kept + np.arange(COUNT) / 24) and not FORMATS[
+        "glb"
+    ].times - {"frame_start", "frame_step", "frame_times", "frame_rate"}
 
 
 def test_the_shell_keeps_the_numbers_of_frames(tmp_path, capsys):
@@ -129,7 +143,11 @@ def test_the_shell_keeps_the_numbers_of_frames(tmp_path, capsys):
         save(TriangleMesh(SHAPE.positions + number, SHAPE.faces), tmp_path / f"in/f_{number}.ply")
     assert bsm("encode", tmp_path / "in", "-o", tmp_path / "a.bsm") == 0
     assert bsm("decode", tmp_path / "a.bsm", "-o", f"{tmp_path}/out/") == 0
-    assert sorted(path.name for path in (tmp_path / "out").iterdir()) == ["00997.ply", "00999.ply", "01001.ply"]
+    assert sorted(path.name for path in (tmp_path / "out").iterdir()) == [
+        "00997.ply",
+        "00999.ply",
+        "01001.ply",
+    ]
     assert "other meshes" not in capsys.readouterr().err
     assert bsm("decode", tmp_path / "a.bsm", "-f", "-o", f"{tmp_path}/out/", "--frames", "0:2") == 0
     assert "1 other meshes are there" in capsys.readouterr().err

@@ -26,7 +26,12 @@ def read(source, kind):
     except BsmError as error:
         return str(error), set()
     tables = [(a.name, a.domain, a.values.tolist(), repr(a.indices)) for a in found.mesh.attributes]
-    mesh = found.mesh.positions.tolist(), found.mesh.faces.tolist(), tables, dict(found.mesh.metadata)
+    mesh = (
+        found.mesh.positions.tolist(),
+        found.mesh.faces.tolist(),
+        tables,
+        dict(found.mesh.metadata),
+    )
     return (mesh, found.notes), {*found.dropped}
 
 
@@ -39,14 +44,20 @@ def require_each(kind, whole, variants, monkeypatch):
         told |= {name} if name not in told and read(source, kind)[0] != held else set()
     patterns = json.loads((EVERY / "silent.json").read_text())[kind]
     known = {pattern: {*fnmatch.filter(every - told, pattern)} for pattern in patterns}
-    assert not isinstance(held, str) and every - told == set().union(*known.values()) and all(known.values())
+    assert (
+        not isinstance(held, str)
+        and every - told == set().union(*known.values())
+        and all(known.values())
+    )
 
 
 def objects(tree, left, owner=""):
     """The objects of a tree that are not below one that is left out, each with the name under which it stands."""
     if isinstance(tree, dict):
         yield owner, tree
-    for name, value in tree.items() if isinstance(tree, dict) else [(owner, value) for value in tree]:
+    for name, value in (
+        tree.items() if isinstance(tree, dict) else [(owner, value) for value in tree]
+    ):
         if isinstance(value, dict | list) and not {name, f"{name} of {owner}"} & left:
             yield from objects(value, left, name)
 
@@ -95,7 +106,9 @@ def test_each_name_of_a_document_is_taken_or_named(kind, library, tmp_path, monk
         return written.getvalue()
 
     def variants(left):
-        for name, text in documents(path.read_bytes() if kind == "dae" else archive.read("3D/3dmodel.model"), left):
+        for name, text in documents(
+            path.read_bytes() if kind == "dae" else archive.read("3D/3dmodel.model"), left
+        ):
             (tmp_path / "a").write_bytes(text if kind == "dae" else packed(text))
             yield name, tmp_path / "a"
 

@@ -30,9 +30,15 @@ def of_faces(source, name):
 def materials_of(source):
     """Return the entries of each material by name, with the bytes of its image and its number of faces."""
     found = {}
-    for number, count in zip(*np.unique(of_faces(source, "material"), return_counts=True), strict=True):
+    for number, count in zip(
+        *np.unique(of_faces(source, "material"), return_counts=True), strict=True
+    ):
         begin = f"material.{number}."
-        words = {name.removeprefix(begin): value for name, value in source.metadata.items() if name.startswith(begin)}
+        words = {
+            name.removeprefix(begin): value
+            for name, value in source.metadata.items()
+            if name.startswith(begin)
+        }
         if "baseColorTexture" in words:
             words["baseColorTexture"] = source.metadata[f"image.{words['baseColorTexture']}.data"]
         found[words.pop("name")] = (words, int(count))
@@ -40,7 +46,12 @@ def materials_of(source):
 
 
 EXPECTED = {
-    "Red": {"baseColorFactor": "0.8 0.1 0.05 1", "metallicFactor": "1", "roughnessFactor": "0.5", "doubleSided": 1},
+    "Red": {
+        "baseColorFactor": "0.8 0.1 0.05 1",
+        "metallicFactor": "1",
+        "roughnessFactor": "0.5",
+        "doubleSided": 1,
+    },
     "Painted": {"metallicFactor": "0", "roughnessFactor": "0.25", "doubleSided": 1},
 }
 
@@ -53,7 +64,9 @@ def test_materials_of_blender_come_in():
     assert metadata["Red"] == (EXPECTED["Red"], 64 + 4)
     assert metadata["Painted"] == (EXPECTED["Painted"] | {"baseColorTexture": image}, 8)
     assert len(set(of_faces(source, "part"))) == 2
-    texcoord = next(attribute for attribute in source.attributes if attribute.semantic == "texcoord")
+    texcoord = next(
+        attribute for attribute in source.attributes if attribute.semantic == "texcoord"
+    )
     assert texcoord.indices is not None and texcoord.indices.shape == (76, 3)
     assert {**read_mesh(PAINTED).mesh.metadata, "frame_start": 1.0} == source.metadata
 
@@ -91,10 +104,15 @@ def test_materials_there_and_back(kind, tmp_path, capsys):
 
     stage = Usd.Stage.Open(str(back))
     mesh = UsdGeom.Mesh(stage.GetDefaultPrim())
-    valid, why = UsdGeom.Subset.ValidateFamily(mesh, UsdGeom.Tokens.face, UsdShade.Tokens.materialBind)
+    valid, why = UsdGeom.Subset.ValidateFamily(
+        mesh, UsdGeom.Tokens.face, UsdShade.Tokens.materialBind
+    )
     assert valid, why
     subsets = UsdShade.MaterialBindingAPI(mesh).GetMaterialBindSubsets()
-    bound = {str(UsdShade.MaterialBindingAPI(s).ComputeBoundMaterial()[0].GetPrim().GetName()) for s in subsets}
+    bound = {
+        str(UsdShade.MaterialBindingAPI(s).ComputeBoundMaterial()[0].GetPrim().GetName())
+        for s in subsets
+    }
     assert bound == {"Red", "Painted"}
     assert sum(len(subset.GetIndicesAttr().Get()) for subset in subsets) == 76
 
@@ -130,7 +148,10 @@ def Material "M" {
             "color3f inputs:emissiveColor.connect = </M/T.outputs:rgb>",
             {"emissiveFactor": "1 1 1", "emissiveTexture": 0},
         ),
-        ("color3f inputs:diffuseColor = (1, 1, 0.5)\nfloat inputs:opacity = 0.25", {"baseColorFactor": "1 1 0.5 0.25"}),
+        (
+            "color3f inputs:diffuseColor = (1, 1, 0.5)\nfloat inputs:opacity = 0.25",
+            {"baseColorFactor": "1 1 0.5 0.25"},
+        ),
         ("color3f inputs:emissiveColor = (0, nan, 0)", {}),
     ],
 )

@@ -47,7 +47,10 @@ def stage(body):
 
 def test_the_image_of_a_texture_is_found_through_the_interface_of_its_material(tmp_path):
     (tmp_path / "t.png").write_bytes(PNG)
-    look = LOOK % {"above": "asset inputs:image = @t.png@", "file": "asset inputs:file.connect = </R/M.inputs:image>"}
+    look = LOOK % {
+        "above": "asset inputs:image = @t.png@",
+        "file": "asset inputs:file.connect = </R/M.inputs:image>",
+    }
     (tmp_path / "a.usda").write_text(stage(MESH + look))
     found = bsm.read_mesh(tmp_path / "a.usda")
     assert images_in(found.mesh.metadata) == {0: ("t.png", PNG)}
@@ -60,7 +63,9 @@ def test_images_of_a_package_that_is_referenced_are_in_the_package(tmp_path):
     (tmp_path / "made" / "t.png").write_bytes(PNG)
     look = LOOK % {"above": "", "file": "asset inputs:file = @t.png@"}
     (tmp_path / "made" / "a.usda").write_text(stage(MESH + look))
-    assert UsdUtils.CreateNewUsdzPackage(str(tmp_path / "made" / "a.usda"), str(tmp_path / "a.usdz"))
+    assert UsdUtils.CreateNewUsdzPackage(
+        str(tmp_path / "made" / "a.usda"), str(tmp_path / "a.usdz")
+    )
     (tmp_path / "b.usda").write_text('#usda 1.0\ndef "R" (\n    references = @a.usdz@</R>\n) {}\n')
     found = bsm.read_mesh(tmp_path / "b.usda")
     assert [data for _, data in images_in(found.mesh.metadata).values()] == [PNG]
@@ -69,14 +74,18 @@ def test_images_of_a_package_that_is_referenced_are_in_the_package(tmp_path):
 
 @pytest.mark.parametrize("counts", [[1, 2, 3], [3, 1, 2]])
 def test_instances_that_come_and_go_are_shown_with_runs(counts, tmp_path):
-    places = "".join(f"{n}: {[(3 * i, 0, 0) for i in range(count)]},\n" for n, count in enumerate(counts))
+    places = "".join(
+        f"{n}: {[(3 * i, 0, 0) for i in range(count)]},\n" for n, count in enumerate(counts)
+    )
     kinds = "".join(f"{n}: {[0] * count},\n" for n, count in enumerate(counts))
     instancer = (
         'def PointInstancer "i" {\npoint3f[] positions.timeSamples = {\n' + places + "}\n"
         "int[] protoIndices.timeSamples = {\n" + kinds + "}\nrel prototypes = </R/i/P/q>\n\n"
         'def "P" {\n' + MESH.replace("rel material:binding = </R/M>", "") + "}\n}\n"
     )
-    head = "#usda 1.0\n(\n    startTimeCode = 0\n    endTimeCode = 2\n    timeCodesPerSecond = 24\n)\n"
+    head = (
+        "#usda 1.0\n(\n    startTimeCode = 0\n    endTimeCode = 2\n    timeCodesPerSecond = 24\n)\n"
+    )
     (tmp_path / "a.usda").write_text(head + stage(instancer).partition(")\n")[2])
     frames = sequence_in(str(tmp_path / "a.usda"), runs=True)
     assert [len(np.unique(mesh.faces)) for mesh in frames.meshes] == [4 * count for count in counts]
@@ -108,7 +117,9 @@ TRIANGLE = """def Mesh "q" {
 
 def test_variants_that_are_not_chosen_are_named(tmp_path):
     (tmp_path / "a.usda").write_text(VARIANTS % (TRIANGLE, TRIANGLE))
-    (tmp_path / "b.usda").write_text('#usda 1.0\ndef "R" (\n    prepend references = @a.usda@</R>\n)\n{\n}\n')
+    (tmp_path / "b.usda").write_text(
+        '#usda 1.0\ndef "R" (\n    prepend references = @a.usda@</R>\n)\n{\n}\n'
+    )
     for name in "ab":
         found = bsm.read_mesh(tmp_path / f"{name}.usda")
         assert found.mesh.positions[:, 2].max() == 1

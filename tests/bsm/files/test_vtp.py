@@ -14,12 +14,16 @@ from tests.shapes import file_of, torus
 from tests.streams import memory_below
 
 WAYS = list(
-    itertools.product(("Ascii", "Binary", "Appended"), ("None", "ZLib"), (0, 1), ("32", "64"), ("Little", "Big"))
+    itertools.product(
+        ("Ascii", "Binary", "Appended"), ("None", "ZLib"), (0, 1), ("32", "64"), ("Little", "Big")
+    )
 )
 
 
 def equal(first, second):
-    assert np.allclose(first.positions, second.positions, atol=1e-6) and np.array_equal(first.faces, second.faces)
+    assert np.allclose(first.positions, second.positions, atol=1e-6) and np.array_equal(
+        first.faces, second.faces
+    )
     assert [a.name for a in first.attributes] == [a.name for a in second.attributes]
     for ours, theirs in zip(first.attributes, second.attributes, strict=True):
         assert (ours.domain, ours.semantic) == (theirs.domain, theirs.semantic)
@@ -28,13 +32,20 @@ def equal(first, second):
 
 def test_vtk_sees_what_is_written(tmp_path):
     pyvista = pytest.importorskip("pyvista")
-    assert bsm.save(painted(), tmp_path / "a.vtp") == ("map_Kd of material skin (for programs other than bsm)",)
+    assert bsm.save(painted(), tmp_path / "a.vtp") == (
+        "map_Kd of material skin (for programs other than bsm)",
+    )
     seen = pyvista.read(tmp_path / "a.vtp")
-    assert seen.point_data.active_scalars_name == "height" and seen.cell_data.active_scalars_name == "label"
+    assert (
+        seen.point_data.active_scalars_name == "height"
+        and seen.cell_data.active_scalars_name == "label"
+    )
     assert seen.point_data.active_texture_coordinates_name == "texcoord"
     ours = bsm.load(tmp_path / "a.vtp")
     assert seen.field_data["unit"][0] == "mm" and dict(ours.metadata) == dict(painted().metadata)
-    assert np.allclose(seen.points, ours.positions) and np.array_equal(seen.regular_faces, ours.faces)
+    assert np.allclose(seen.points, ours.positions) and np.array_equal(
+        seen.regular_faces, ours.faces
+    )
     assert np.array_equal(seen.point_data["height"], ours.attributes[1].values[:, 0])
 
 
@@ -64,8 +75,11 @@ def test_fields_of_many_strings_take_little_memory_and_surplus_base64_is_left():
     surplus = base64.b64encode(struct.pack("<Q", 1) + b"x").decode() + "A"
     arrays = f'<Array type="String" Name="a" format="ascii">{letters}</Array>'
     arrays += f'<DataArray type="UInt8" Name="b" format="binary">{surplus}</DataArray>'
-    arrays += '</FieldData><Lines><DataArray type="Int64" format="appended" offset=""/></Lines><FieldData>'  # not read
-    data = file_of(torus(), "vtp").replace(b"<PolyData>", f"<PolyData><FieldData>{arrays}</FieldData>".encode())
+    # Not read.
+    arrays += '</FieldData><Lines><DataArray type="Int64" format="appended" offset=""/></Lines><FieldData>'
+    data = file_of(torus(), "vtp").replace(
+        b"<PolyData>", f"<PolyData><FieldData>{arrays}</FieldData>".encode()
+    )
     with memory_below(32 << 20):
         read = read_mesh(data)
     assert read.dropped == ("a",) and read.mesh.metadata["b"] == b"x"
@@ -88,7 +102,9 @@ def test_exact_numbers_come_back():
     far = bsm.TriangleMesh(mesh.positions + 1e7, mesh.faces, (heat,))
     again = read_mesh(file_of(far, "vtp")).mesh
     assert np.array_equal(again.positions, far.positions)
-    assert again.attributes[0].name == "heat <&> _" and np.array_equal(again.attributes[0].values, heat.values)
+    assert again.attributes[0].name == "heat <&> _" and np.array_equal(
+        again.attributes[0].values, heat.values
+    )
 
 
 @pytest.mark.parametrize(

@@ -19,7 +19,9 @@ def lacking(request, monkeypatch):
     if request.param == "Linux":
         monkeypatch.setattr(sys, "platform", "darwin")
     monkeypatch.setattr(landlock, "lack", lambda: request.param)
-    return (DependencyError if "pip" in request.param else UnsupportedError), f"needs {request.param}"
+    return (
+        DependencyError if "pip" in request.param else UnsupportedError
+    ), f"needs {request.param}"
 
 
 def test_what_other_libraries_read_is_refused(lacking, tmp_path):
@@ -38,7 +40,9 @@ def test_what_other_libraries_read_is_refused(lacking, tmp_path):
             read_mesh(given, isolated=True)
     with pytest.raises(error, match=words):
         sequence_in(tmp_path / "*.obj", isolated=True)
-    assert main(["encode", str(tmp_path / "a.obj"), "--untrusted", "-q"]) == (8 if error is DependencyError else 5)
+    assert main(["encode", str(tmp_path / "a.obj"), "--untrusted", "-q"]) == (
+        8 if error is DependencyError else 5
+    )
     assert not (tmp_path / "a.bsm").exists()
 
 
@@ -50,7 +54,10 @@ def test_what_we_read_ourselves_is_read(lacking, tmp_path):
     with pytest.raises(MeshError):
         read_mesh(b"v 0 0 0\n", limits=SERVICE)
     with pytest.raises(LimitError):
-        read_mesh(b"ply\nformat ascii 1.0\nelement vertex 2000000\nelement face 1\nend_header\n", limits=SERVICE)
+        read_mesh(
+            b"ply\nformat ascii 1.0\nelement vertex 2000000\nelement face 1\nend_header\n",
+            limits=SERVICE,
+        )
 
 
 def test_the_package_is_looked_for(monkeypatch):

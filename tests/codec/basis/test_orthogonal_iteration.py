@@ -10,7 +10,9 @@ from tests.blocks import blocks_of
 from tests.shapes import patch, torus
 from tools.laplacians import dense_laplacian
 
-RULES = ChainRules(exact=True, key_interval=1, power=2, iterations=1, key_iterations=1, shift=0.125, springs=False)
+RULES = ChainRules(
+    exact=True, key_interval=1, power=2, iterations=1, key_iterations=1, shift=0.125, springs=False
+)
 
 
 @pytest.mark.parametrize("mesh", [patch(17, 23), torus(20, 20)])
@@ -45,7 +47,16 @@ def test_sizes_follow_the_error_and_the_decoder_follows_the_sizes():
     options = {"block_size": 150, "keep": 0.5, "step": 5e-4, "smoothing": 0.0}
     dynamic = Encoder(mesh, encode_options(**options, doi=(0.03, 0.04)))
     attempt = dynamic.attempt(5e-4)
-    assert len({packet.coefficients for packet in attempt.draft.body if hasattr(packet, "coefficients")}) > 2
+    assert (
+        len(
+            {
+                packet.coefficients
+                for packet in attempt.draft.body
+                if hasattr(packet, "coefficients")
+            }
+        )
+        > 2
+    )
     decoded = decode(b"".join(attempt.frames))
     error = np.abs(decoded.positions - mesh.positions[dynamic.vertex_order]).max()
     assert error == pytest.approx(attempt.comparison.max_error, rel=0.5)

@@ -35,13 +35,17 @@ def test_they_are_those_of_the_law(name: str, reach: int) -> None:
 
     mesh = MESHES[name]()
     graph = graph_of(mesh)
-    rows = [graph.neighbors[a:b].tolist() for a, b in zip(graph.offsets[:-1], graph.offsets[1:], strict=True)]
+    rows = [
+        graph.neighbors[a:b].tolist()
+        for a, b in zip(graph.offsets[:-1], graph.offsets[1:], strict=True)
+    ]
     found = cells_of(graph, mesh.faces, reach)
     law = Cells(rows, mesh.faces.tolist(), (found.graph.size, reach, 3, 1))
     assert found.own.tolist() == law.own
     coarse = found.graph
     assert [
-        coarse.neighbors[a:b].tolist() for a, b in zip(coarse.offsets[:-1], coarse.offsets[1:], strict=True)
+        coarse.neighbors[a:b].tolist()
+        for a, b in zip(coarse.offsets[:-1], coarse.offsets[1:], strict=True)
     ] == law.graph
     assert [tuple(face) for face in found.faces.tolist()] == law.faces
     places = np.random.default_rng(0).normal(size=(coarse.size, 3))
@@ -54,7 +58,11 @@ def test_a_hub_with_many_legs_takes_no_longer_for_its_many_centers() -> None:
     x = 1 + 3 * np.arange(legs)
     faces = np.concatenate([np.stack([0 * x, x, x + 1], 1), np.stack([x + 1, x, x + 2], 1)])
     number = np.empty(1 + 3 * legs, np.int64)
-    number[x + 2], number[x], number[x + 1] = np.arange(legs), legs + np.arange(legs), 2 * legs + np.arange(legs)
+    number[x + 2], number[x], number[x + 1] = (
+        np.arange(legs),
+        legs + np.arange(legs),
+        2 * legs + np.arange(legs),
+    )
     number[0] = 3 * legs
     faces = number[faces].astype(np.int32)
     found = cells_of(graph_of_faces(faces, len(number)), faces, 2)
@@ -67,20 +75,28 @@ def fit_of(mesh: TriangleMesh) -> Fit:
 
 
 def error_of(fit: Fit, places: Matrix) -> float:
-    return float(np.square(prolonged(fit.cells, fit.graph, places, fit.rounds) - fit.positions).mean())
+    return float(
+        np.square(prolonged(fit.cells, fit.graph, places, fit.rounds) - fit.positions).mean()
+    )
 
 
 def test_fitted_places_come_nearer_than_means() -> None:
     fit = fit_of(torus(120, 80))
     own = fit.cells.own
-    means = np.column_stack([np.bincount(own, column) for column in fit.positions.T]) / np.bincount(own)[:, None]
+    means = (
+        np.column_stack([np.bincount(own, column) for column in fit.positions.T])
+        / np.bincount(own)[:, None]
+    )
     assert error_of(fit, fit.places) < error_of(fit, means) / 16.0
 
 
 def test_coupled_cells_are_those_of_the_definition() -> None:
     fit = fit_of(torus(60, 40))
     size, coarse = fit.cells.graph.size, fit.cells.graph
-    columns = [prolonged(fit.cells, fit.graph, np.tile(row, (3, 1)).T.copy(), 8)[:, 0] for row in np.eye(size)]
+    columns = [
+        prolonged(fit.cells, fit.graph, np.tile(row, (3, 1)).T.copy(), 8)[:, 0]
+        for row in np.eye(size)
+    ]
     bends = -np.eye(size)
     for cell in range(size):
         around = coarse.neighbors[coarse.offsets[cell] : coarse.offsets[cell + 1]]

@@ -18,7 +18,9 @@ def blocks_of(graph, parts, overlap):
 
 
 def neighbors_of(graph, vertices):
-    return {int(w) for v in vertices for w in graph.neighbors[graph.offsets[v] : graph.offsets[v + 1]]}
+    return {
+        int(w) for v in vertices for w in graph.neighbors[graph.offsets[v] : graph.offsets[v + 1]]
+    }
 
 
 @pytest.mark.parametrize("parts", [1, 2, 13, 60])
@@ -37,12 +39,16 @@ def test_every_block_of_a_connected_mesh_touches_one_before_it(parts):
 
 def test_many_parts_are_chained_in_linear_time():
     # A rule that looked at all parts, or at all of a hub's, for every step would take minutes.
-    fan = np.stack([np.zeros(99_998, int), np.arange(1, 99_999), np.arange(2, 100_000)], axis=1).astype(np.int32)
+    fan = np.stack(
+        [np.zeros(99_998, int), np.arange(1, 99_999), np.arange(2, 100_000)], axis=1
+    ).astype(np.int32)
     apart = np.arange(99_999, dtype=np.int32).reshape(-1, 3)
     for faces in (fan, apart):
         graph = graph_of_faces(faces, int(faces.max()) + 1)
         _, blocks = blocks_of(graph, graph.size, 1.0)
-        assert sorted(core_of(blocks, index)[0] for index in range(blocks.count)) == list(range(graph.size))
+        assert sorted(core_of(blocks, index)[0] for index in range(blocks.count)) == list(
+            range(graph.size)
+        )
 
 
 def core_of(blocks, index):
@@ -58,7 +64,9 @@ def test_chains_are_evened_out_without_being_more(interval, blocks):
     assert even_interval(0, blocks) == 0
 
 
-@pytest.mark.parametrize(("labels", "size"), [([0, 1, 2, -1], 4), ([0, 0, 0], 4), ([0, 0, 0, 1], 2), ([0] * 4, 4)])
+@pytest.mark.parametrize(
+    ("labels", "size"), [([0, 1, 2, -1], 4), ([0, 0, 0], 4), ([0, 0, 0, 1], 2), ([0] * 4, 4)]
+)
 def test_parts_that_do_not_fit_are_refused(labels, size):
     graph = graph_of(tetrahedron())
     with pytest.raises(BsmError, match=r"fit|blocks of"):

@@ -11,4 +11,7 @@ from tests.codec.denoise.denoise_shapes import Partners
 @pytest.fixture
 def partners(meshes: Path) -> Partners:
     """Function from the names of a clean and a noisy mesh to both."""
-    return lambda clean, noisy: (bsm.load(meshes / f"static/{clean}.ply"), bsm.load(meshes / f"noisy/{noisy}.ply"))
+    return lambda clean, noisy: (
+        bsm.load(meshes / f"static/{clean}.ply"),
+        bsm.load(meshes / f"noisy/{noisy}.ply"),
+    )

@@ -13,12 +13,19 @@ from bsm.codec.geometry.metrics import face_normals, mean_edge_length, rms_over_
 from tests.codec.denoise.denoise_shapes import Partners, cube, grid, probe_of, sphere
 from tests.shapes import theta
 from tools.made_shapes import made_shape
-from tools.noise import correlated_along_normals, denoise_automatically, gaussian_along_normals, gaussian_isotropic
+from tools.noise import (
+    correlated_along_normals,
+    denoise_automatically,
+    gaussian_along_normals,
+    gaussian_isotropic,
+)
 
 
 @pytest.mark.parametrize("sigma", [0.1, 0.2, 0.6])
 @pytest.mark.parametrize("shape", [cube, sphere])
-def test_the_estimate_tells_noise_along_the_normals_from_isotropic_noise(sigma: float, shape) -> None:  # type: ignore[no-untyped-def]
+def test_the_estimate_tells_noise_along_the_normals_from_isotropic_noise(
+    sigma: float, shape
+) -> None:  # type: ignore[no-untyped-def]
     clean, faces = shape(20)
     probe, edge = probe_of(clean, faces), mean_edge_length(clean, faces)
     along = estimate_noise(gaussian_along_normals(clean, faces, sigma, seed=3), clean, probe)
@@ -38,7 +45,9 @@ def test_it_beats_a_fixed_number_of_iterations(shape) -> None:  # type: ignore[n
     assert {step.filter for step in choice.steps} <= set(CANDIDATES)
     assert choice.kind == "white"
     assert choice.noise.normal == pytest.approx(0.25, rel=0.2)
-    assert theta(clean, denoised, faces) < theta(clean, guided_normal_filtering(noisy, faces, 20), faces)
+    assert theta(clean, denoised, faces) < theta(
+        clean, guided_normal_filtering(noisy, faces, 20), faces
+    )
 
 
 @pytest.mark.parametrize("shape", [cube, pytest.param(sphere, marks=pytest.mark.slow)])
@@ -75,7 +84,9 @@ def test_noise_leaves_thin_triangles_whichever_way_it_moved_them(make) -> None: 
     noisy = make(clean * [1.0, 1.0, 30.0], faces, 0.2, seed=3)
     result, choice = denoise_automatically(noisy, faces)
     assert choice.steps and not choice.reliable
-    assert theta(clean * [1.0, 1.0, 30.0], result, faces) < 0.5 * theta(clean * [1.0, 1.0, 30.0], noisy, faces)
+    assert theta(clean * [1.0, 1.0, 30.0], result, faces) < 0.5 * theta(
+        clean * [1.0, 1.0, 30.0], noisy, faces
+    )
 
 
 @pytest.mark.parametrize("seed", [4, 10, 11, 16])
@@ -91,8 +102,12 @@ def test_noise_along_the_surface_differs_from_irregular_triangles(seed: int, sig
             assert level.slides == slides
 
 
-@pytest.mark.parametrize(("seed", "make", "most"), [(4, gaussian_along_normals, 1.0), (16, gaussian_isotropic, 0.35)])
-def test_vertices_slide_where_noise_moved_them_along_the_surface(seed: int, make, most: float) -> None:  # type: ignore[no-untyped-def]
+@pytest.mark.parametrize(
+    ("seed", "make", "most"), [(4, gaussian_along_normals, 1.0), (16, gaussian_isotropic, 0.35)]
+)
+def test_vertices_slide_where_noise_moved_them_along_the_surface(
+    seed: int, make, most: float
+) -> None:  # type: ignore[no-untyped-def]
     clean, faces = made_shape(seed, 24)
     noisy = make(clean, faces, 0.2, 0)
     denoised, choice = denoise_automatically(noisy, faces)
@@ -146,7 +161,9 @@ def test_a_triangle_soup_is_welded_first_and_comes_back_as_a_soup() -> None:
     soup = np.arange(len(corners), dtype=np.int32).reshape(-1, 3)
     denoised, choice = denoise_automatically(corners, soup)
     assert choice.steps
-    assert theta(clean[faces.ravel()], denoised, soup) < 0.5 * theta(clean[faces.ravel()], corners, soup)
+    assert theta(clean[faces.ravel()], denoised, soup) < 0.5 * theta(
+        clean[faces.ravel()], corners, soup
+    )
     _, index = np.unique(corners, axis=0, return_inverse=True)
     places = denoised[np.unique(index.ravel(), return_index=True)[1]]
     assert (denoised == places[index.ravel()]).all()
@@ -179,7 +196,9 @@ def test_the_smallest_meshes_pass(count: int) -> None:
         ("fandisk_6475", "fandisk_0.7_noisy", 5.2),
     ],
 )
-def test_parts_become_flat_where_they_are(partners: Partners, name: str, noisy: str, most: float) -> None:
+def test_parts_become_flat_where_they_are(
+    partners: Partners, name: str, noisy: str, most: float
+) -> None:
     original, mesh = partners(name, noisy)
     denoised, choice = denoise_automatically(mesh.positions, mesh.faces)
     assert choice.finish.startswith("flat")

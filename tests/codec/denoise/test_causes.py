@@ -19,16 +19,29 @@ def volume(positions: Positions, faces: Faces) -> float:
 
 @pytest.mark.parametrize(
     ("field", "cells", "thick", "most"),
-    [(ball, 40, 1.0, 2.5), (ball, 64, 1.0, 2.0), (torus, 60, 1.0, 3.0), (ball, 60, THICK, 6.0), (ball, 26, 4.0, 7.0)],
+    [
+        (ball, 40, 1.0, 2.5),
+        (ball, 64, 1.0, 2.0),
+        (torus, 60, 1.0, 3.0),
+        (ball, 60, THICK, 6.0),
+        (ball, 26, 4.0, 7.0),
+    ],
 )
-def test_stairs_of_a_binary_volume_go_and_no_vertex_leaves_its_half_cell(field, cells, thick, most) -> None:  # type: ignore[no-untyped-def]
+def test_stairs_of_a_binary_volume_go_and_no_vertex_leaves_its_half_cell(
+    field, cells, thick, most
+) -> None:  # type: ignore[no-untyped-def]
     pytest.importorskip("vtkmodules")
     made = voxelized(field, cells, thick)
     step = 2.0 / (cells - 6)
     for goal in ("shading", "shape"):
         result, choice = denoise_automatically(made.positions, made.faces, goal)
-        assert choice.kind == "cells" and "along x, y and z" in choice.reason and not choice.reliable
-        assert (np.abs(result - made.positions) <= 0.5 * step * np.array([1.0, 1.0, thick]) * (1.0 + 1e-9)).all()
+        assert (
+            choice.kind == "cells" and "along x, y and z" in choice.reason and not choice.reliable
+        )
+        assert (
+            np.abs(result - made.positions)
+            <= 0.5 * step * np.array([1.0, 1.0, thick]) * (1.0 + 1e-9)
+        ).all()
         assert made.angle(made.positions) > 19.0 and made.angle(result) < most
         assert made.rms(result) < 0.6 * made.rms(made.positions)
 
@@ -36,7 +49,12 @@ def test_stairs_of_a_binary_volume_go_and_no_vertex_leaves_its_half_cell(field, 
 def rods(places: Floats) -> Floats:
     """Crossing rods, five of them a side, whose gaps are narrower than a thick slice."""
     off = np.square(np.sin(7.0 * places @ turning(5)))
-    inner = np.sqrt(np.stack([off[..., 0] + off[..., 1], off[..., 1] + off[..., 2]], axis=-1)).min(axis=-1) - 0.5
+    inner = (
+        np.sqrt(np.stack([off[..., 0] + off[..., 1], off[..., 1] + off[..., 2]], axis=-1)).min(
+            axis=-1
+        )
+        - 0.5
+    )
     return np.asarray(np.maximum(0.1 * inner, np.linalg.norm(places, axis=-1) - 1.0))
 
 
@@ -47,7 +65,9 @@ def test_slices_of_any_thickness_never_end_farther_from_the_truth(field, thick: 
     made = voxelized(field, 70, thick)
     result, choice = denoise_automatically(made.positions, made.faces)
     assert choice.steps or (result == made.positions).all()
-    assert made.angle(result) <= made.angle(made.positions) and made.rms(result) <= made.rms(made.positions)
+    assert made.angle(result) <= made.angle(made.positions) and made.rms(result) <= made.rms(
+        made.positions
+    )
 
 
 @pytest.mark.parametrize("turned", [False, True])
@@ -77,7 +97,9 @@ def test_cells_are_known_from_vertices_halfway_between_them_only() -> None:
         assert find_cells(clean, Topology(faces, len(clean))) is None
 
 
-@pytest.mark.parametrize(("thick", "most"), [(2.3, 6.0), (3.0, 6.0), (4.0, 6.0), (4.75, 8.0), (6.0, 8.0)])
+@pytest.mark.parametrize(
+    ("thick", "most"), [(2.3, 6.0), (3.0, 6.0), (4.0, 6.0), (4.75, 8.0), (6.0, 8.0)]
+)
 def test_slices_that_were_stored_as_several_thin_ones_are_known(thick: float, most: float) -> None:
     pytest.importorskip("vtkmodules")
     made = voxelized(ball, 46, thick, copies=thick)
@@ -94,7 +116,9 @@ def tray(places: Floats) -> Floats:
     x, y, z = np.moveaxis(places, -1, 0)
     sheet = np.abs(z - 0.25 * np.sin(3.0 * x) - 0.2 * np.cos(4.0 * y)) - 0.07
     rim = np.maximum(np.abs(z) - 0.5, 0.6 - x)
-    return np.asarray(np.maximum(np.minimum(sheet, rim), np.abs(places[..., :2]).max(axis=-1) - 0.9))
+    return np.asarray(
+        np.maximum(np.minimum(sheet, rim), np.abs(places[..., :2]).max(axis=-1) - 0.9)
+    )
 
 
 def test_walls_of_one_slice_are_filtered_without_a_coarse_step_as_well() -> None:
@@ -103,7 +127,9 @@ def test_walls_of_one_slice_are_filtered_without_a_coarse_step_as_well() -> None
     result, choice = denoise_automatically(made.positions, made.faces)
     assert {step.filter.hand_over for step in choice.steps} == {"bends", "positions", "none"}
     # Without that step it would be 1.12 times.
-    assert made.angle(result) < 1.09 * made.angle(made.positions) and made.rms(result) < made.rms(made.positions)
+    assert made.angle(result) < 1.09 * made.angle(made.positions) and made.rms(result) < made.rms(
+        made.positions
+    )
 
 
 def stairs(places: Floats) -> Floats:
@@ -132,7 +158,10 @@ def test_stairs_and_terraces_that_somebody_built_are_not_slices() -> None:
 def test_volumes_are_known_whichever_way_they_are_turned(thick: float, most: float) -> None:
     pytest.importorskip("vtkmodules")
     made, turn = voxelized(ball, 42, thick), turning(11)
-    for turned in (made.positions @ turn.T + 3.0, (made.positions @ turn.T).astype(np.float32).astype(np.float64)):
+    for turned in (
+        made.positions @ turn.T + 3.0,
+        (made.positions @ turn.T).astype(np.float32).astype(np.float64),
+    ):
         result, choice = denoise_automatically(turned, made.faces)
         assert choice.kind == "cells" and "along axes of its own" in choice.reason
         moves = np.abs((result - turned) @ turn)
@@ -148,4 +177,6 @@ def test_noise_along_an_axis_goes_along_it(shape) -> None:  # type: ignore[no-un
     result, choice = denoise_automatically(noisy, faces)
     assert choice.kind == "axis" and "(0.00, 1.00, 0.00)" in choice.reason
     assert np.abs((result - noisy)[:, [0, 2]]).max() < 1e-12
-    assert theta(clean, result, faces) < (0.15 if shape is cube else 0.3) * theta(clean, noisy, faces)
+    assert theta(clean, result, faces) < (0.15 if shape is cube else 0.3) * theta(
+        clean, noisy, faces
+    )

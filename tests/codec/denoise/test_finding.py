@@ -29,8 +29,12 @@ KINDS = {
     "uniform": uniform_along_normals,
     "axis": gaussian_along_axis,
     "correlated": correlated_along_normals,
-    "impulses": lambda positions, faces, sigma, seed: impulsive(positions, faces, 2.0 * sigma, 0.5, seed),
-    "local": lambda positions, faces, sigma, seed: gaussian_in_part(positions, faces, sigma, 0.5, seed),
+    "impulses": lambda positions, faces, sigma, seed: impulsive(
+        positions, faces, 2.0 * sigma, 0.5, seed
+    ),
+    "local": lambda positions, faces, sigma, seed: gaussian_in_part(
+        positions, faces, sigma, 0.5, seed
+    ),
 }
 
 
@@ -48,8 +52,12 @@ def test_kinds_differ(shape, kind: str) -> None:  # type: ignore[no-untyped-def]
     assert finding.level / finding.edge == pytest.approx(level, rel=0.35)
 
 
-@pytest.mark.parametrize(("shape", "size", "sigma"), [(cube, 60, 0.18), (sphere, 20, 0.2), (sphere, 24, 0.2)])
-def test_fainter_impulses_are_found_on_many_vertices_and_few(shape, size: int, sigma: float) -> None:  # type: ignore[no-untyped-def]
+@pytest.mark.parametrize(
+    ("shape", "size", "sigma"), [(cube, 60, 0.18), (sphere, 20, 0.2), (sphere, 24, 0.2)]
+)
+def test_fainter_impulses_are_found_on_many_vertices_and_few(
+    shape, size: int, sigma: float
+) -> None:  # type: ignore[no-untyped-def]
     clean, faces = shape(size)
     finding = find(impulsive(clean, faces, sigma, 0.5, seed=4), faces)
     assert finding.noisy and finding.whiteness > 1.08
@@ -97,7 +105,10 @@ def test_vertices_that_rounding_has_merged_part_and_rehearsals_know_it() -> None
     lost = (noisy[faces] == noisy[np.roll(faces, 1, axis=1)]).all(axis=2).any(axis=1)
     assert lost.mean() > 0.1
     result, choice = denoise_automatically(noisy, faces)
-    assert theta(clean, noisy, faces[lost]) == pytest.approx(90.0) and theta(clean, result, faces[lost]) < 12.0
+    assert (
+        theta(clean, noisy, faces[lost]) == pytest.approx(90.0)
+        and theta(clean, result, faces[lost]) < 12.0
+    )
     assert choice.untreated == pytest.approx(theta(clean, noisy, faces), rel=0.1)
     # They slide along the surface, which took the error from 2.9 degrees; so many faces are lower than that noise that
     # the forecast, although it is right here, is not called reliable.
@@ -106,7 +117,10 @@ def test_vertices_that_rounding_has_merged_part_and_rehearsals_know_it() -> None
     # In a triangle soup it is unknown which corners to split.
     corners, soup = noisy[faces.ravel()], np.arange(faces.size, dtype=np.int32).reshape(-1, 3)
     together = denoise_automatically(corners, soup)[0]
-    assert len(np.unique(together, axis=0)) <= len(np.unique(corners, axis=0)) and (together != corners).any()
+    assert (
+        len(np.unique(together, axis=0)) <= len(np.unique(corners, axis=0))
+        and (together != corners).any()
+    )
 
 
 def test_shapes_that_were_drawn_on_a_grid_are_not_rounded() -> None:
@@ -119,7 +133,9 @@ def test_shapes_that_were_drawn_on_a_grid_are_not_rounded() -> None:
 
 def test_detail_that_comes_and_goes_with_the_place_is_no_noise() -> None:
     clean, faces = sphere(30)
-    rough = clean * (1.0 + 0.02 * np.maximum(clean[:, 2:], 0.05) * np.sin(70.0 * clean[:, :1] * clean[:, 1:2]))
+    rough = clean * (
+        1.0 + 0.02 * np.maximum(clean[:, 2:], 0.05) * np.sin(70.0 * clean[:, :1] * clean[:, 1:2])
+    )
     assert find(clean, faces).kind == find(rough, faces).kind == find(*cube(30)).kind == "none"
 
 
@@ -216,9 +232,16 @@ def knobbly(size: int, waves: int) -> tuple[np.ndarray, np.ndarray]:
     """A ball with bumps along its circles of longitude and latitude."""
     clean, faces = sphere(size)
     around, up = np.arctan2(clean[:, 1], clean[:, 0]), np.arcsin(clean[:, 2])
-    return clean * (1.0 + 0.02 * np.cos(up) * np.sin(waves * around) * np.sin(waves * up))[:, None], faces
+    return clean * (1.0 + 0.02 * np.cos(up) * np.sin(waves * around) * np.sin(waves * up))[
+        :, None
+    ], faces
 
 
 def test_regular_bumps_stay() -> None:
-    for patterned, faces in (bumpy(60, 6, 0.05), bumpy(90, 6, 0.03), knobbly(20, 8), knobbly(26, 13)):
+    for patterned, faces in (
+        bumpy(60, 6, 0.05),
+        bumpy(90, 6, 0.03),
+        knobbly(20, 8),
+        knobbly(26, 13),
+    ):
         assert (denoise_automatically(patterned, faces)[0] == patterned).all()

@@ -60,7 +60,9 @@ def test_a_mirrored_mesh_is_described_by_mirrored_numbers(flipped: int) -> None:
     mirror = np.where(np.arange(3) == flipped, -1.0, 1.0)
     numbers, frames = described(bumpy, Topology(faces, len(bumpy)))
     # Turned about, faces look to the same side as before.
-    other, turned = described(bumpy * mirror, Topology(np.ascontiguousarray(faces[:, [0, 2, 1]]), len(bumpy)))
+    other, turned = described(
+        bumpy * mirror, Topology(np.ascontiguousarray(faces[:, [0, 2, 1]]), len(bumpy))
+    )
     signs = np.sign(np.einsum("kij,kij->ki", turned, frames * mirror))
     assert (signs[:, 2] == 1.0).all()
     for x in (False, True):
@@ -79,7 +81,9 @@ def test_it_takes_noise_away(shape) -> None:  # type: ignore[no-untyped-def]
     assert theta(clean, other.positions, faces) < 0.3 * theta(clean, noisy, faces)
     assert rms_over_edge(clean, other.positions, faces) < 0.6 * rms_over_edge(clean, noisy, faces)
     half = theta(clean, joined(noisy, other, 0.5, topology), faces)
-    assert theta(clean, joined(noisy, other, 1.0, topology), faces) < half < theta(clean, noisy, faces)
+    assert (
+        theta(clean, joined(noisy, other, 1.0, topology), faces) < half < theta(clean, noisy, faces)
+    )
 
 
 def test_a_mesh_without_faces_and_one_without_area_pass() -> None:
@@ -95,7 +99,10 @@ def test_weights_are_small_and_written_as_they_are_read(tmp_path: Path) -> None:
     again = read_networks(tmp_path / "again.npz")
     numbers = np.random.default_rng(0).normal(size=(7, NUMBERS)).astype(np.float32)
     assert len(again) == len(networks)
-    assert all((network(numbers) == other(numbers)).all() for network, other in zip(networks, again, strict=True))
+    assert all(
+        (network(numbers) == other(numbers)).all()
+        for network, other in zip(networks, again, strict=True)
+    )
 
 
 def test_weights_for_other_numbers_are_refused(tmp_path: Path) -> None:
@@ -108,12 +115,17 @@ def test_a_network_of_zeros_says_the_filtered_normal() -> None:
     _, noisy, faces = noisy_sphere(8)
     numbers, frames = described(noisy, Topology(faces, len(noisy)))
     filtered = np.einsum("kij,ki->kj", frames, numbers[:, BASE])
-    assert regressed_normals([(numbers, frames)], zeros(NUMBERS)) == pytest.approx(filtered, abs=1e-5)
+    assert regressed_normals([(numbers, frames)], zeros(NUMBERS)) == pytest.approx(
+        filtered, abs=1e-5
+    )
 
 
 def test_how_rough_a_mesh_is_counts_where_it_is_noisy() -> None:
     clean, noisy, faces = noisy_sphere()
-    topology, near = Topology(faces, len(clean)), surroundings(noisy, Topology(faces, len(clean)), RADIUS)
+    topology, near = (
+        Topology(faces, len(clean)),
+        surroundings(noisy, Topology(faces, len(clean)), RADIUS),
+    )
     upper = clean[:, 2] > 0.0
     half = np.where(upper[:, None], noisy, clean)
     all_over, everywhere, there = (

@@ -66,7 +66,8 @@ def test_crowds_are_thinned_out_evenly() -> None:
     crowded[:, 0] = 30.0 * (flat[:, 0] / 30.0) ** 4
     near = surroundings(crowded, Topology(faces, len(flat)), 2.0)
     sizes, owners = np.diff(near.starts), np.repeat(np.arange(len(faces)), np.diff(near.starts))
-    assert (near.members[near.starts[:-1]] == np.arange(len(faces))).all()  # each face is near itself
+    # Each face is near itself.
+    assert (near.members[near.starts[:-1]] == np.arange(len(faces))).all()
     assert CROWDED * 4 / 2 < sizes.max() <= CROWDED * 4
     centroids = face_geometry(crowded, faces).centroids
     apart = np.linalg.norm(centroids[near.members] - centroids[owners], axis=1)
@@ -97,7 +98,9 @@ def test_the_bilateral_sum_is_the_printed_one() -> None:
     for f in (0, 17, 200):
         total = np.zeros(3)
         for j in members(topology.patches, f):
-            spatial = np.exp(-(np.linalg.norm(geometry.centroids[f] - geometry.centroids[j]) ** 2) / (2 * 0.8**2))
+            spatial = np.exp(
+                -(np.linalg.norm(geometry.centroids[f] - geometry.centroids[j]) ** 2) / (2 * 0.8**2)
+            )
             likeness = np.exp(-(np.linalg.norm(guide[f] - guide[j]) ** 2) / (2 * 0.4**2))
             total += geometry.areas[j] * spatial * likeness * geometry.normals[j]
         assert filtered[f] == pytest.approx(total / np.linalg.norm(total))
@@ -133,7 +136,9 @@ def test_the_guide_is_the_mean_of_the_most_consistent_patch() -> None:
         ("bilateral-normal", "fandisk_6475", "fandisk_0.7_noisy", 30.5),
     ],
 )
-def test_theta_is_the_published_one(partners: Partners, step: str, clean: str, noisy: str, expected: float) -> None:
+def test_theta_is_the_published_one(
+    partners: Partners, step: str, clean: str, noisy: str, expected: float
+) -> None:
     original, mesh = partners(clean, noisy)
     denoised = FINE_STEPS[step](mesh.positions, mesh.faces)
     assert theta(original.positions, denoised, mesh.faces) == pytest.approx(expected, rel=0.03)
@@ -146,7 +151,12 @@ def test_patches_hold_the_faces_that_share_a_vertex() -> None:
     for f in range(0, len(faces), 7):
         around = members(topology.patches, f)
         assert sorted(around) == [g for g in range(len(faces)) if sets[f] & sets[g]]
-    expected = [(f, g) for f in range(len(faces)) for g in range(f + 1, len(faces)) if len(sets[f] & sets[g]) == 2]
+    expected = [
+        (f, g)
+        for f in range(len(faces))
+        for g in range(f + 1, len(faces))
+        if len(sets[f] & sets[g]) == 2
+    ]
     assert sorted(map(tuple, topology.pairs.tolist())) == expected
 
 

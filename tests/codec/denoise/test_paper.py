@@ -31,7 +31,9 @@ def iterated(power: int, rounds: int, block: int) -> np.ndarray:
                 basis = np.linalg.qr(np.linalg.matrix_power(inverse, power) @ basis)[0]
         vertices, degrees = blocks.block(index).vertices, blocks.block(index).degrees
         center = NOISY[vertices].mean(axis=0)
-        blend.add(vertices, basis @ (basis.T @ (NOISY[vertices] - center)) + center, degrees.astype(float))
+        blend.add(
+            vertices, basis @ (basis.T @ (NOISY[vertices] - center)) + center, degrees.astype(float)
+        )
     return blend.all_positions()
 
 

@@ -7,7 +7,12 @@ from bsm import DenoiseOptions, HarmError, MeshError, OptionError, TriangleMesh
 from bsm.codec.denoise import FrameDenoiser, denoise
 from bsm.codec.denoise.coarse import CoarseFilter, by_lengths
 from bsm.codec.denoise.filters import HAND_OVERS
-from bsm.codec.denoise.surface import GuidedFilter, Topology, guided_normal_filtering, surface_normals
+from bsm.codec.denoise.surface import (
+    GuidedFilter,
+    Topology,
+    guided_normal_filtering,
+    surface_normals,
+)
 from tests.codec.denoise.denoise_shapes import Partners, sphere
 from tests.shapes import theta
 from tools.noise import gaussian_along_normals
@@ -21,14 +26,19 @@ def test_either_step_may_stand_alone() -> None:
     fine = denoise(mesh, DenoiseOptions(hand_over="none", iterations=3), force=True)
     assert (fine.positions == guided_normal_filtering(NOISY, FACES, 3)).all()
     coarse = denoise(mesh, DenoiseOptions(iterations=0, keep=0.2, block_size=200), force=True)
-    assert coarse.positions == pytest.approx(CoarseFilter(FACES, len(NOISY), 0.2, 200, by_lengths(NOISY))(NOISY, 0.2))
+    assert coarse.positions == pytest.approx(
+        CoarseFilter(FACES, len(NOISY), 0.2, 200, by_lengths(NOISY))(NOISY, 0.2)
+    )
 
 
 @pytest.mark.parametrize(
-    "options", [None, DenoiseOptions(), DenoiseOptions(hand_over="normals", fine="bilateral-normal")]
+    "options",
+    [None, DenoiseOptions(), DenoiseOptions(hand_over="normals", fine="bilateral-normal")],
 )
 def test_every_frame_of_a_sequence_is_denoised(options: DenoiseOptions | None) -> None:
-    frames = np.stack([gaussian_along_normals(CLEAN * scale, FACES, 0.25, seed=2) for scale in (1.0, 1.2, 1.5)])
+    frames = np.stack(
+        [gaussian_along_normals(CLEAN * scale, FACES, 0.25, seed=2) for scale in (1.0, 1.2, 1.5)]
+    )
     denoised = np.stack(list(FrameDenoiser(frames[0], FACES, options)(frames)))
     assert denoised.shape == frames.shape
     for scale, before, after in zip((1.0, 1.2, 1.5), frames, denoised):
@@ -87,7 +97,10 @@ def test_each_hand_over_takes_noise_away_before_the_fine_step() -> None:
 @pytest.mark.real
 @pytest.mark.parametrize(
     ("clean", "noisy", "expected"),
-    [("twelve_dodecahedron", "twelve_dodecahedron_noisy", 9.83), ("fandisk_6475", "fandisk_0.7_noisy", 14.56)],
+    [
+        ("twelve_dodecahedron", "twelve_dodecahedron_noisy", 9.83),
+        ("fandisk_6475", "fandisk_0.7_noisy", 14.56),
+    ],
 )
 def test_the_coarse_step_is_as_good_as_the_published_one(
     partners: Partners, clean: str, noisy: str, expected: float
@@ -98,4 +111,6 @@ def test_the_coarse_step_is_as_good_as_the_published_one(
     assert theta(original.positions, coarse, mesh.faces) < 1.02 * expected
     weighted = denoise(mesh, DenoiseOptions(), force=True).positions
     unweighted = guided_normal_filtering(CoarseFilter(mesh.faces, n)(mesh.positions), mesh.faces)
-    assert theta(original.positions, weighted, mesh.faces) < theta(original.positions, unweighted, mesh.faces)
+    assert theta(original.positions, weighted, mesh.faces) < theta(
+        original.positions, unweighted, mesh.faces
+    )

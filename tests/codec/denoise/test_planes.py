@@ -27,7 +27,10 @@ def test_a_cube_is_six_planes(sigma: float, far: float) -> None:
     assert planes.normals[planes.labels] == pytest.approx(face_normals(clean, faces), abs=0.05)
     put = planes.put(noisy, Topology(faces, len(noisy)))
     assert np.linalg.norm(put - noisy, axis=1).max() < 6.0 * sigma * mean_edge_length(clean, faces)
-    off = np.einsum("ij,ikj->ik", planes.normals[planes.labels], put[faces]) - planes.heights[planes.labels][:, None]
+    off = (
+        np.einsum("ij,ikj->ik", planes.normals[planes.labels], put[faces])
+        - planes.heights[planes.labels][:, None]
+    )
     assert np.abs(off).max() < 0.01 * sigma * mean_edge_length(clean, faces)
 
 
@@ -50,5 +53,7 @@ def test_only_the_flat_half_of_a_shape_is_put_on_a_plane() -> None:
 
 
 def test_no_faces_have_no_planes() -> None:
-    planes = find_planes(np.zeros((3, 3)), np.zeros((3, 3)), 1.0, Topology(np.array([[0, 1, 2]], np.int32), 3))
+    planes = find_planes(
+        np.zeros((3, 3)), np.zeros((3, 3)), 1.0, Topology(np.array([[0, 1, 2]], np.int32), 3)
+    )
     assert planes.share == 0.0

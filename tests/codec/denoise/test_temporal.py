@@ -20,14 +20,20 @@ def turning(count: int) -> np.ndarray:
     frames = []
     for angle in np.linspace(0.0, 2.0, count):
         turn = np.array(
-            [[np.cos(angle), -np.sin(angle), 0], [np.sin(angle), np.cos(angle), 0], [0, 0, 1 + 0.2 * angle]]
+            [
+                [np.cos(angle), -np.sin(angle), 0],
+                [np.sin(angle), np.cos(angle), 0],
+                [0, 0, 1 + 0.2 * angle],
+            ]
         )
         frames.append(CLEAN @ turn.T + [angle, 0.0, 0.0])
     return np.stack(frames)
 
 
 def with_noise(frames: np.ndarray, sigma: float) -> np.ndarray:
-    return np.stack([gaussian_along_normals(frame, FACES, sigma, seed) for seed, frame in enumerate(frames)])
+    return np.stack(
+        [gaussian_along_normals(frame, FACES, sigma, seed) for seed, frame in enumerate(frames)]
+    )
 
 
 def rms(frames: np.ndarray) -> float:
@@ -61,14 +67,18 @@ def test_a_sequence_is_better_than_its_frames() -> None:
     together = np.stack(list(FrameDenoiser(noisy[0], FACES)(noisy)))
     alone = np.stack([next(iter(FrameDenoiser(frame, FACES)([frame]))) for frame in noisy[:3]])
     assert rms(together - frames) < 0.85 * rms(alone - frames[:3])
-    angles = [np.mean([theta(a, b, FACES) for a, b in zip(frames, each)]) for each in (together, alone)]
+    angles = [
+        np.mean([theta(a, b, FACES) for a, b in zip(frames, each)]) for each in (together, alone)
+    ]
     assert angles[0] < 0.8 * angles[1]
 
 
 def test_what_is_left_in_time_is_not_taken_for_noise_that_networks_know() -> None:
     mesh = knot(800)
     clean = np.stack([mesh.positions * (1.0, 1.0, 1.0 + 0.05 * number) for number in range(12)])
-    noisy = np.stack([gaussian_along_normals(frame, mesh.faces, 0.2, seed) for seed, frame in enumerate(clean)])
+    noisy = np.stack(
+        [gaussian_along_normals(frame, mesh.faces, 0.2, seed) for seed, frame in enumerate(clean)]
+    )
     denoised = FrameDenoiser(noisy[0], mesh.faces)(noisy)
     pairs = zip(clean, noisy, denoised, strict=True)
     angles = np.mean([[theta(a, x, mesh.faces) for x in (b, c)] for a, b, c in pairs], axis=0)
@@ -80,7 +90,9 @@ def test_clean_motion_comes_back_bit_for_bit() -> None:
     assert (np.stack(list(FrameDenoiser(frames[0], FACES)(frames))) == frames).all()
 
 
-@pytest.mark.parametrize("count", [1, WINDOW - 1, WINDOW, WINDOW + 1, 2 * WINDOW - FEWEST_FRAMES, 2 * WINDOW + 3])
+@pytest.mark.parametrize(
+    "count", [1, WINDOW - 1, WINDOW, WINDOW + 1, 2 * WINDOW - FEWEST_FRAMES, 2 * WINDOW + 3]
+)
 def test_windows_hand_out_every_frame_once(count: int) -> None:
     small, faces = sphere(3)
     frames = np.stack([small + number for number in range(count)])

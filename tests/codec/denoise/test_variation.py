@@ -18,7 +18,9 @@ def bent_plate(count: int = 24) -> TriangleMesh:
     """A strip of a cylinder of radius 1, of random triangles of one size."""
     random = np.random.default_rng(5)
     rows, columns = np.indices((count, count))
-    places = np.stack([rows, columns], axis=-1).reshape(-1, 2) + random.uniform(-0.2, 0.2, (count * count, 2))
+    places = np.stack([rows, columns], axis=-1).reshape(-1, 2) + random.uniform(
+        -0.2, 0.2, (count * count, 2)
+    )
     angles = places[:, 0] / (2.0 * count)
     positions = np.stack([np.sin(angles), places[:, 1] / (2.0 * count), np.cos(angles)], axis=1)
     number = np.arange(count * count).reshape(count, count)
@@ -49,12 +51,18 @@ def test_an_even_bend_has_a_gradient_without_jumps() -> None:
 
 @pytest.mark.parametrize("shape", ["plate", "cube", "torus"])
 def test_noise_goes_and_shapes_stay(shape: str) -> None:
-    shapes = {"plate": bent_plate, "cube": lambda: TriangleMesh(*cube(12)), "torus": lambda: torus(36, 28)}
+    shapes = {
+        "plate": bent_plate,
+        "cube": lambda: TriangleMesh(*cube(12)),
+        "torus": lambda: torus(36, 28),
+    }
     mesh = shapes[shape]()
     noisy = gaussian_along_normals(mesh.positions, mesh.faces, 0.2, seed=1)
     topology = Topology(mesh.faces, len(noisy))
     smooth = varied_little(noisy, Probe(topology).average @ noisy, topology)
-    assert theta(mesh.positions, smooth, mesh.faces) < 0.4 * theta(mesh.positions, noisy, mesh.faces)
+    assert theta(mesh.positions, smooth, mesh.faces) < 0.4 * theta(
+        mesh.positions, noisy, mesh.faces
+    )
 
 
 def test_flat_meshes_and_meshes_without_pairs_of_faces_stay() -> None:
@@ -97,7 +105,9 @@ def test_folds_are_mended_and_the_surface_stays() -> None:
 def test_shapes_that_are_folded_stay() -> None:
     positions, faces = sphere(16)
     topology = Topology(faces, len(positions))
-    crumpled = positions + np.random.default_rng(3).normal(0.0, mean_edge_length(positions, faces), positions.shape)
+    crumpled = positions + np.random.default_rng(3).normal(
+        0.0, mean_edge_length(positions, faces), positions.shape
+    )
     assert folds(crumpled, topology).mean() > 0.03
     assert np.array_equal(mend_folds(crumpled, topology, Probe(topology).average), crumpled)
 
@@ -113,8 +123,12 @@ def test_each_method_denoises_by_itself(method: str) -> None:
 
 
 def test_options_of_steps_that_a_method_has_not_are_refused() -> None:
-    with pytest.raises(OptionError, match="method tgv has no coarse step; leave out hand_over, keep and block_size"):
+    with pytest.raises(
+        OptionError, match="method tgv has no coarse step; leave out hand_over, keep and block_size"
+    ):
         DenoiseOptions(method="tgv", keep=0.2)
-    with pytest.raises(OptionError, match="method learnt has no fine step; leave out fine and iterations"):
+    with pytest.raises(
+        OptionError, match="method learnt has no fine step; leave out fine and iterations"
+    ):
         DenoiseOptions(method="learnt", iterations=3)
     assert DenoiseOptions(method="guided", iterations=3).iterations == 3

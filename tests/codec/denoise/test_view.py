@@ -37,7 +37,9 @@ def test_noise_of_fused_views_is_taken_away(camera: str) -> None:
 @pytest.mark.real
 def test_fused_views_of_a_real_camera_are_known(meshes: Path) -> None:
     """A cone of a public data set; total generalized variation leaves 7.2 of its 14.4 degrees."""
-    noisy, clean = (read_mesh(meshes / "kinect" / f"cone_{name}.ply").mesh for name in ("noisy", "clean"))
+    noisy, clean = (
+        read_mesh(meshes / "kinect" / f"cone_{name}.ply").mesh for name in ("noisy", "clean")
+    )
     result, choice = denoise_automatically(noisy.positions, noisy.faces)
     assert choice.kind == "fused" and not choice.reliable
     assert theta(clean.positions, result, clean.faces) < 7.2
@@ -48,7 +50,9 @@ def test_noise_of_volumes_is_rehearsed() -> None:
     pytest.importorskip("vtkmodules")
 
     def bumpy(places: Positions) -> Floats:
-        return np.asarray(np.linalg.norm(places, axis=-1) - 0.8 - 0.04 * np.sin(9.0 * places).sum(axis=-1))
+        return np.asarray(
+            np.linalg.norm(places, axis=-1) - 0.8 - 0.04 * np.sin(9.0 * places).sum(axis=-1)
+        )
 
     step = 2.2 / 43
     places = np.stack(np.meshgrid(*3 * [np.linspace(-1.1, 1.1, 44)], indexing="ij"), axis=-1)
@@ -87,11 +91,18 @@ def test_a_lattice_is_known_by_its_lines_and_not_when_it_is_turned() -> None:
 @pytest.mark.parametrize("shape", [cube, sphere])
 def test_the_eye_is_found_wherever_the_scan_is_put(shape, camera: str) -> None:  # type: ignore[no-untyped-def]
     made = scan(shape, camera)
-    found = find_view(7.0 * made.positions @ AWAY.T + [3.0, 4.0, 5.0], probe_of(made.positions, made.faces))
-    assert found is not None and np.linalg.norm(found.eye - [3.0, 4.0, 5.0]) < 7.0 * 0.03 * CAMERAS[camera].far
+    found = find_view(
+        7.0 * made.positions @ AWAY.T + [3.0, 4.0, 5.0], probe_of(made.positions, made.faces)
+    )
+    assert (
+        found is not None
+        and np.linalg.norm(found.eye - [3.0, 4.0, 5.0]) < 7.0 * 0.03 * CAMERAS[camera].far
+    )
 
 
-@pytest.mark.parametrize(("camera", "stepped"), [("structured light", True), ("time of flight", False)])
+@pytest.mark.parametrize(
+    ("camera", "stepped"), [("structured light", True), ("time of flight", False)]
+)
 def test_depths_in_steps_are_known_in_the_frame_of_the_camera(camera: str, stepped: bool) -> None:
     made = scan(cube, camera)
     found = find_view(made.positions, probe_of(made.positions, made.faces))
@@ -134,9 +145,14 @@ def test_flattening_moves_along_the_rays_and_keeps_creases() -> None:
 
 @pytest.mark.parametrize(
     ("shape", "camera"),
-    [*((cube, camera) for camera in CAMERAS), pytest.param(sphere, "structured light", marks=pytest.mark.slow)],
+    [
+        *((cube, camera) for camera in CAMERAS),
+        pytest.param(sphere, "structured light", marks=pytest.mark.slow),
+    ],
 )
-def test_noise_of_a_camera_is_taken_away_and_what_it_saw_without_noise_stays(shape, camera: str) -> None:  # type: ignore[no-untyped-def]
+def test_noise_of_a_camera_is_taken_away_and_what_it_saw_without_noise_stays(
+    shape, camera: str
+) -> None:  # type: ignore[no-untyped-def]
     made = scan(shape, camera)
     result, choice = denoise_automatically(made.positions, made.faces)
     assert choice.kind == "view"

@@ -73,9 +73,14 @@ def test_must_be_of_its_mesh(attributes):
 
 
 def test_follows_its_mesh():
-    corners = Attribute("uv", [[0.0], [1], [2], [3], [9]], "corner", "texcoord", [[0, 1, 2], [0, 2, 3]])
+    corners = Attribute(
+        "uv", [[0.0], [1], [2], [3], [9]], "corner", "texcoord", [[0, 1, 2], [0, 2, 3]]
+    )
     mesh = TriangleMesh(
-        SQUARE, FACES, [Attribute("v", np.arange(5)), Attribute("f", [7, 8], "face"), corners], {"name": "square"}
+        SQUARE,
+        FACES,
+        [Attribute("v", np.arange(5)), Attribute("f", [7, 8], "face"), corners],
+        {"name": "square"},
     )
     smaller, kept = mesh.without_isolated_vertices()
     assert kept.tolist() == [0, 1, 2, 3]

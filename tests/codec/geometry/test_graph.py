@@ -21,12 +21,16 @@ def test_rows_equal_sets_built_the_slow_way(faces):
     for v in range(20):
         holding = [i for i, face in enumerate(faces) if v in face]
         assert around.members[around.starts[v] : around.starts[v + 1]].tolist() == holding
-        assert near.members[near.starts[v] : near.starts[v + 1]].tolist() == sorted(b for a, b in pairs if a == v)
+        assert near.members[near.starts[v] : near.starts[v + 1]].tolist() == sorted(
+            b for a, b in pairs if a == v
+        )
     assert mesh_edges(faces, 20).tolist() == sorted([a, b] for a, b in pairs if a < b)
 
 
 few_places = hnp.arrays(
-    np.float64, st.tuples(st.integers(1, 40), st.just(3)), elements=st.sampled_from([-1.0, 0.0, 2.5])
+    np.float64,
+    st.tuples(st.integers(1, 40), st.just(3)),
+    elements=st.sampled_from([-1.0, 0.0, 2.5]),
 )
 
 

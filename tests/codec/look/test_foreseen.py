@@ -16,7 +16,9 @@ def test_foreseen_looks_follow_drawn_ones_from_frame_to_frame() -> None:
     decoded = positions + 0.002 * random.standard_normal(positions.shape)
     foresight = Foresight(faces)
     pairs = list(zip(positions, decoded, strict=True))
-    drawn = np.array([LookMetric(TriangleMesh(one, faces)).look(other).moving for one, other in pairs])
+    drawn = np.array(
+        [LookMetric(TriangleMesh(one, faces)).look(other).moving for one, other in pairs]
+    )
     foreseen = np.array([foresight.look(*pair) for pair in pairs])
     ratios = np.log(drawn / foreseen)
     assert np.std(ratios) < 0.1 and abs(ratios.mean()) < 1.0
@@ -28,13 +30,17 @@ def test_the_size_and_the_place_of_a_mesh_change_nothing() -> None:
     foresight = Foresight(mesh.faces)
     look = foresight.look(mesh.positions, moved)
     assert foresight.look(mesh.positions, mesh.positions) == 0.0
-    assert foresight.look(8.0 * mesh.positions + 5.0, 8.0 * moved + 5.0) == pytest.approx(look, rel=1e-9)
+    assert foresight.look(8.0 * mesh.positions + 5.0, 8.0 * moved + 5.0) == pytest.approx(
+        look, rel=1e-9
+    )
 
 
 def test_moved_outlines_count_where_shades_stay() -> None:
     mesh = torus(24, 16)
     foresight = Foresight(mesh.faces)
-    looks = [foresight.look(mesh.positions, mesh.positions + shift) for shift in (0.0, 0.001, 0.002)]
+    looks = [
+        foresight.look(mesh.positions, mesh.positions + shift) for shift in (0.0, 0.001, 0.002)
+    ]
     assert looks[0] < looks[1] < looks[2]
 
 

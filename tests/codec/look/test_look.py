@@ -22,7 +22,16 @@ from bsm import (
     read_mesh,
 )
 from bsm.codec.look.measure import LookMetric, look, summed
-from bsm.codec.look.pictures import CREASE, LEAST_PIXELS, Canvas, Shape, Size, axes, cameras, difference
+from bsm.codec.look.pictures import (
+    CREASE,
+    LEAST_PIXELS,
+    Canvas,
+    Shape,
+    Size,
+    axes,
+    cameras,
+    difference,
+)
 from tests.shapes import patch, soup, tetrahedron, together, torus, turned
 
 MESH = torus(60, 40)
@@ -47,7 +56,11 @@ def slid(mesh, size):
     """Inner vertices of a plane moved within it."""
     low, high = mesh.positions.min(axis=0), mesh.positions.max(axis=0)
     inside = ((mesh.positions > low) & (mesh.positions < high))[:, :2].all(axis=1)
-    noise = np.random.default_rng(0).uniform(-size, size, mesh.positions.shape) * mesh.diagonal * (1, 1, 0)
+    noise = (
+        np.random.default_rng(0).uniform(-size, size, mesh.positions.shape)
+        * mesh.diagonal
+        * (1, 1, 0)
+    )
     return moved(mesh, mesh.positions + noise * inside[:, None])
 
 
@@ -81,7 +94,9 @@ def test_splitting_vertices_and_faces_does_not_count():
     halves = (flat.positions[flat.faces[:, 0]] + flat.positions[flat.faces[:, 1]]) / 2
     first, second, third = flat.faces.T
     middle = len(flat.positions) + np.arange(len(halves))
-    faces = np.vstack([np.column_stack([first, middle, third]), np.column_stack([middle, second, third])])
+    faces = np.vstack(
+        [np.column_stack([first, middle, third]), np.column_stack([middle, second, third])]
+    )
     assert look(flat, TriangleMesh(np.vstack([flat.positions, halves]), faces)).distance < 0.05
 
 
@@ -97,7 +112,10 @@ def test_scale_and_place_do_not_count(scale):
 def test_sliding_within_a_plane_does_not_count():
     flat = plane(20)
     assert look(flat, slid(flat, 0.008)).distance < 0.1
-    lifted = flat.positions + np.random.default_rng(0).normal(0, 0.002, flat.positions.shape) * flat.diagonal
+    lifted = (
+        flat.positions
+        + np.random.default_rng(0).normal(0, 0.002, flat.positions.shape) * flat.diagonal
+    )
     assert look(flat, moved(flat, lifted)).distance > 1
 
 
@@ -106,7 +124,10 @@ def test_sliding_within_a_plane_does_not_count():
 
 def test_noise_is_seen_the_more_of_it():
     looker = LookMetric(MESH)
-    distances = [looker.distance(noisy(MESH, size).positions) for size in (1e-4, 2e-4, 4e-4, 8e-4, 1.6e-3, 3.2e-3)]
+    distances = [
+        looker.distance(noisy(MESH, size).positions)
+        for size in (1e-4, 2e-4, 4e-4, 8e-4, 1.6e-3, 3.2e-3)
+    ]
     assert distances == sorted(distances)
     assert distances[0] < 1 < distances[-1]
 
@@ -119,7 +140,9 @@ def test_a_missing_part_is_seen():
 
 
 @pytest.mark.real
-@pytest.mark.parametrize("name", ["static/c3d_spot.ply", "static/fandisk_6475.ply", "assets/robot_forearm.obj"])
+@pytest.mark.parametrize(
+    "name", ["static/c3d_spot.ply", "static/fandisk_6475.ply", "assets/robot_forearm.obj"]
+)
 def test_bits_of_a_quantizer_are_seen_one_by_one(meshes, name):
     mesh = read_mesh(meshes / name).mesh.bare
     looker = LookMetric(mesh)
@@ -140,11 +163,15 @@ def test_both_sides_of_a_face_are_lit_alike():
 
 def test_normals_that_a_mesh_has_are_looked_at_too():
     smooth = Shape.of(MESH.positions, MESH.faces).normals(MESH.positions).reshape(-1, 3)
-    own = TriangleMesh(MESH.positions, MESH.faces, (Attribute("normal", smooth, "corner", "normal"),))
+    own = TriangleMesh(
+        MESH.positions, MESH.faces, (Attribute("normal", smooth, "corner", "normal"),)
+    )
     assert look(own, own).distance < 1e-3
     assert look(own, MESH).distance < 0.01  # normals of doubles
     tilted = smooth + np.array([0.5, 0.0, 0.0], np.float32)
-    other = TriangleMesh(MESH.positions, MESH.faces, (Attribute("normal", tilted, "corner", "normal"),))
+    other = TriangleMesh(
+        MESH.positions, MESH.faces, (Attribute("normal", tilted, "corner", "normal"),)
+    )
     assert look(own, other).distance > 1
     assert look(MESH, other).distance < 1e-3
 
@@ -153,11 +180,17 @@ def test_normals_that_a_mesh_has_are_looked_at_too():
 def test_normals_that_are_turned_do_not_pass_where_pictures_show_little(degrees, enough):
     smooth = Shape.of(MESH.positions, MESH.faces).normals(MESH.positions)
     looker = LookMetric(
-        TriangleMesh(MESH.positions, MESH.faces, (Attribute("normal", smooth.reshape(-1, 3), "corner", "normal"),))
+        TriangleMesh(
+            MESH.positions,
+            MESH.faces,
+            (Attribute("normal", smooth.reshape(-1, 3), "corner", "normal"),),
+        )
     )
     own = smooth.reshape(-1, 3)
     aside = np.cross(own, np.random.default_rng(0).normal(size=3))
-    turned = own + math.tan(math.radians(degrees)) * aside / np.linalg.norm(aside, axis=1, keepdims=True)
+    turned = own + math.tan(math.radians(degrees)) * aside / np.linalg.norm(
+        aside, axis=1, keepdims=True
+    )
     turned /= np.linalg.norm(turned, axis=1, keepdims=True)
     found = looker.shaded(MESH.positions, np.ascontiguousarray(turned.reshape(-1, 9), np.float32))
     assert (max(found) <= 1.0) == enough
@@ -165,11 +198,17 @@ def test_normals_that_are_turned_do_not_pass_where_pictures_show_little(degrees,
 
 
 def test_positions_are_looked_at_by_normals_that_the_original_has():
-    shades = np.random.default_rng(0).normal(size=(len(MESH.faces), 3))  # every face shaded by itself
+    # Every face shaded by itself.
+    shades = np.random.default_rng(0).normal(size=(len(MESH.faces), 3))
     own = Attribute("normal", np.repeat(shades, 3, axis=0), "corner", "normal")
     worse = noisy(MESH, 0.002)
-    known = look(TriangleMesh(MESH.positions, MESH.faces, (own,)), TriangleMesh(worse.positions, MESH.faces, (own,)))
-    assert LookMetric(TriangleMesh(MESH.positions, MESH.faces, (own,))).look(worse.positions) == known
+    known = look(
+        TriangleMesh(MESH.positions, MESH.faces, (own,)),
+        TriangleMesh(worse.positions, MESH.faces, (own,)),
+    )
+    assert (
+        LookMetric(TriangleMesh(MESH.positions, MESH.faces, (own,))).look(worse.positions) == known
+    )
     assert known.distance > LookMetric(MESH).distance(worse.positions)
 
 
@@ -199,7 +238,9 @@ def test_a_square_from_above_has_one_shade():
     cosine, sine = math.cos(math.radians(33.0)), math.sin(math.radians(33.0))
     right, up = cosine * towards[0] + sine * towards[1], cosine * towards[1] - sine * towards[0]
     side = 1.03 * max(np.ptp(square.positions @ right), np.ptp(square.positions @ up))
-    assert inside.sum() == pytest.approx((400 / side) ** 2 / 3, rel=0.01), "seen at an angle, by a rolled camera"
+    assert inside.sum() == pytest.approx((400 / side) ** 2 / 3, rel=0.01), (
+        "seen at an angle, by a rolled camera"
+    )
     assert samples[0].min() == samples[:, -1].min() == 1
     assert picture == pytest.approx(samples.reshape(100, 4, 100, 4).mean(axis=(1, 3)), abs=1e-6)
 
@@ -209,7 +250,9 @@ def test_edges_along_an_axis_cross_columns_and_rows_of_samples():
     box = np.array(np.meshgrid((0.0, 1.0), (0.0, 1.0), (0.0, 1.0))).reshape(3, -1).T
     for camera in cameras(box, 400):
         slopes = np.abs(camera[:12].reshape(3, 4)[:2, :3])
-        assert (slopes.min(axis=0) > 0.05 * slopes.max()).all(), "no axis of the mesh is along one of the picture"
+        assert (slopes.min(axis=0) > 0.05 * slopes.max()).all(), (
+            "no axis of the mesh is along one of the picture"
+        )
 
 
 def test_a_difference_is_that_of_the_definition():
@@ -236,7 +279,9 @@ def test_the_distance_is_that_of_the_definition():
     worse, size = noisy(MESH, 0.001), Size.of(MESH.positions / MESH.diagonal, MESH.faces)
     low, high = MESH.positions.min(axis=0), MESH.positions.max(axis=0)
     originals, others = (
-        [mesh.positions - (low + high) / 2 for mesh in (MESH, worse)][k] / np.linalg.norm(high - low) for k in range(2)
+        [mesh.positions - (low + high) / 2 for mesh in (MESH, worse)][k]
+        / np.linalg.norm(high - low)
+        for k in range(2)
     )
     unlike, gone = [], []
     for camera in cameras(originals, size.pixels):
@@ -280,12 +325,16 @@ def test_spans_and_single_samples_show_the_same(turn):
 def planes(count):
     """Large triangles above each other."""
     corners = np.tile([[-1.0, -1.0], [1.0, -1.0], [0.0, 1.0]], (count, 1))
-    return np.column_stack([corners, np.repeat(np.arange(count) / count, 3)]), np.arange(3 * count).reshape(-1, 3)
+    return np.column_stack([corners, np.repeat(np.arange(count) / count, 3)]), np.arange(
+        3 * count
+    ).reshape(-1, 3)
 
 
 def test_pictures_of_few_faces_are_small_however_short_edges_are():
     positions, faces = planes(1)
-    tiny = np.concatenate([faces, np.repeat([[0, 3, 3]], 100, axis=0), np.repeat([[3, 3, 3]], 1000, axis=0)])
+    tiny = np.concatenate(
+        [faces, np.repeat([[0, 3, 3]], 100, axis=0), np.repeat([[3, 3, 3]], 1000, axis=0)]
+    )
     size = Size.of(np.vstack([positions, positions[0] + 1e-6]), tiny)
     assert size.pixels**2 <= LEAST_PIXELS**2 + 8 * len(tiny)
 
@@ -347,7 +396,9 @@ def test_the_side_that_differs_most_is_drawn():
     dented[top, 2] *= 0.9
     looker = LookMetric(MESH)
     right, up, towards = looker.view(moved(MESH, dented))
-    assert np.allclose(np.cross(right, up), towards) and towards[2] > 0.3, "from above, where the dent is"
+    assert np.allclose(np.cross(right, up), towards) and towards[2] > 0.3, (
+        "from above, where the dent is"
+    )
 
 
 def test_of_faces_at_one_place_the_brightest_is_shown():
@@ -367,11 +418,18 @@ def test_of_faces_at_one_place_the_brightest_is_shown():
 
 def test_last_bits_do_not_decide_which_face_is_seen():
     """Roofs without a ridge overlap in one plane; edges of a cube from the side meet the centers of samples."""
-    random, square = np.random.default_rng(7), np.array([(0.0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)])
-    eaves = [(i, 4 + i, 4 + (i + 1) % 4) for i in range(4)] + [(i, 4 + (i + 1) % 4, (i + 1) % 4) for i in range(4)]
+    random, square = (
+        np.random.default_rng(7),
+        np.array([(0.0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)]),
+    )
+    eaves = [(i, 4 + i, 4 + (i + 1) % 4) for i in range(4)] + [
+        (i, 4 + (i + 1) % 4, (i + 1) % 4) for i in range(4)
+    ]
     faces = np.array([(0, 1, 2), (0, 2, 3), *eaves])
     roof = np.vstack([square, square * (1.3, 1.3, 0.92) - (0.15, 0.15, 0)])
-    roofs = np.vstack([roof * (*random.uniform(0.5, 1.5, 2), 1) + (*random.uniform(0, 1, 2), 0) for _ in range(4)])
+    roofs = np.vstack(
+        [roof * (*random.uniform(0.5, 1.5, 2), 1) + (*random.uniform(0, 1, 2), 0) for _ in range(4)]
+    )
     roofs @= np.linalg.qr(random.normal(size=(3, 3)))[0]
     together = TriangleMesh(roofs, np.vstack([faces + 8 * i for i in range(4)]))
     for shifted in (roofs * (1 + 1e-12), roofs + random.uniform(-1e-7, 1e-7, roofs.shape)):
@@ -395,7 +453,10 @@ def test_narrow_faces_are_as_bright_as_faces_can_be_and_no_nearer_than_their_cor
     front = [[(-900.0, -900.0, 100.0), (900.0, -900.0, 100.0), (0.0, 900.0, 100.0)]]
     positions = np.vstack([np.concatenate([narrow, depths], axis=2), front]).reshape(-1, 3)
     normals = np.tile(np.eye(3, dtype=np.float32).ravel(), (2001, 1))
-    faces, camera = np.arange(6003, dtype=np.int32).reshape(-1, 3), np.r_[np.eye(3, 4).ravel(), 0.6, 0.0, 0.8]
+    faces, camera = (
+        np.arange(6003, dtype=np.int32).reshape(-1, 3),
+        np.r_[np.eye(3, 4).ravel(), 0.6, 0.0, 0.8],
+    )
     canvas = Canvas(64)
     canvas.draw(positions, faces[:-1], normals, camera)
     shown = canvas.samples[canvas.owner >= 0]
@@ -419,7 +480,9 @@ def test_normals_are_sums_of_what_is_around_and_not_behind_a_crease():
     found = shape.normals(mesh.positions).reshape(-1, 3, 3)
     for face in range(0, len(mesh.faces), 97):
         for corner in range(3):
-            around = (mesh.faces == mesh.faces[face, corner]).any(axis=1) & (unit @ unit[face] > CREASE)
+            around = (mesh.faces == mesh.faces[face, corner]).any(axis=1) & (
+                unit @ unit[face] > CREASE
+            )
             total = crosses[around].sum(axis=0)
             assert found[face, corner] == pytest.approx(total / np.linalg.norm(total), abs=1e-6)
 
@@ -444,8 +507,11 @@ def test_faces_without_area_do_not_count():
     low = np.arange(around)
     sides = np.column_stack([low, low + 1, low + around + 1])
     flat = np.column_stack([low + 1, low + around + 2, low + around + 1])
-    far = [(around + 1, around + 2, 2 * around + 2)]  # from the tip to a vertex that nothing else has
-    bare, given = (TriangleMesh(positions, faces) for faces in (sides, np.vstack([sides, flat, far])))
+    # From the tip to a vertex that nothing else has.
+    far = [(around + 1, around + 2, 2 * around + 2)]
+    bare, given = (
+        TriangleMesh(positions, faces) for faces in (sides, np.vstack([sides, flat, far]))
+    )
     assert LookMetric(bare).pixels == LookMetric(given).pixels
     worse = noisy(bare, 0.003)
     worst = moved(bare, np.where(positions == [0, 0, 9], positions, worse.positions))
@@ -453,9 +519,13 @@ def test_faces_without_area_do_not_count():
     assert look(given, worst) == look(bare, worst)
 
 
-@pytest.mark.parametrize("seed", [*range(8), *(pytest.param(seed, marks=pytest.mark.long) for seed in range(8, 2000))])
+@pytest.mark.parametrize(
+    "seed", [*range(8), *(pytest.param(seed, marks=pytest.mark.long) for seed in range(8, 2000))]
+)
 def test_the_mesh_as_given_judges_what_was_promised(seed):
-    promises = sorted((name, options.promise) for name, options in PRESETS.items() if options.promise)
+    promises = sorted(
+        (name, options.promise) for name, options in PRESETS.items() if options.promise
+    )
     preset, promise = promises[seed % len(promises)]
     given = turned(np.random.default_rng(seed))
     try:
@@ -486,4 +556,6 @@ def test_pictures_do_not_show_what_was_drawn_before():
         for canvas in (used, fresh):
             canvas.draw(wide * scale + scale, face, normals, camera, owned=bool(owned % 2))
         assert np.array_equal(used.samples, fresh.samples)
-        assert np.array_equal(used.owner, fresh.owner) and used.owner.size == (64 * 64 if owned % 2 else 0)
+        assert np.array_equal(used.owner, fresh.owner) and used.owner.size == (
+            64 * 64 if owned % 2 else 0
+        )

@@ -3,7 +3,15 @@
 import numpy as np
 import pytest
 
-from bsm import Attribute, AttributeEvent, HeaderEvent, MeshError, SequenceEncoder, SequenceOptions, decode_sequence
+from bsm import (
+    Attribute,
+    AttributeEvent,
+    HeaderEvent,
+    MeshError,
+    SequenceEncoder,
+    SequenceOptions,
+    decode_sequence,
+)
 from tests.streams import frames_in, moving_events_of
 from tools.vectors.meshes import torus
 
@@ -12,7 +20,9 @@ WAYS = [{"gop": 4}, {"low_delay": 1, "gop": 4}]
 
 
 def moving(frames):
-    return np.array([torus(8, 6, phase=0.15 * t).positions * (1.0 + 0.01 * t) for t in range(frames)])
+    return np.array(
+        [torus(8, 6, phase=0.15 * t).positions * (1.0 + 0.01 * t) for t in range(frames)]
+    )
 
 
 def soup(frames):
@@ -30,7 +40,11 @@ def encoded(frames, faces, **options):
 
 
 def runs_of(data):
-    return [event.header.run_number for event in moving_events_of(data) if isinstance(event, HeaderEvent)]
+    return [
+        event.header.run_number
+        for event in moving_events_of(data)
+        if isinstance(event, HeaderEvent)
+    ]
 
 
 @pytest.mark.parametrize("way", WAYS)
@@ -107,7 +121,9 @@ def test_vertices_in_no_face_are_left_out_of_an_order_that_is_kept():
 
 def test_colors_of_copies_differ():
     frames = soup(moving(2))
-    colors = np.repeat(np.arange(len(FACES), dtype=np.uint8), 3)[:, None] * np.array([1, 2, 3], np.uint8)
+    colors = np.repeat(np.arange(len(FACES), dtype=np.uint8), 3)[:, None] * np.array(
+        [1, 2, 3], np.uint8
+    )
     chosen = SequenceOptions(step=0.003, threads=1, keep_order=True, attributes={"colors": "exact"})
     carried = [Attribute("colors", colors, semantic="color")]
     encoder = SequenceEncoder(OWN, chosen, 2, attributes=carried)

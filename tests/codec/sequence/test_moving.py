@@ -43,7 +43,9 @@ FRAMES = [with_attributes(t) for t in range(9)]
 
 def extent(name: str) -> float:
     """The range of an attribute's values in all frames."""
-    values = np.concatenate([a.values for frame in FRAMES for a in frame.attributes if a.name == name])
+    values = np.concatenate(
+        [a.values for frame in FRAMES for a in frame.attributes if a.name == name]
+    )
     return float(np.ptp(values.astype(float), axis=0).max())
 
 
@@ -57,7 +59,9 @@ def decoded(data: bytes, **options: object) -> list[FrameEvent]:
     return list(frames_in(moving_events_of(data, **options)).values())
 
 
-def errors(frames: Sequence[TriangleMesh], encoder: SequenceEncoder, found: Sequence[FrameEvent]) -> dict[str, float]:
+def errors(
+    frames: Sequence[TriangleMesh], encoder: SequenceEncoder, found: Sequence[FrameEvent]
+) -> dict[str, float]:
     """How far any value is off, by attribute."""
     assert len(frames) == len(found)
     worst: dict[str, float] = {}
@@ -77,7 +81,15 @@ def errors(frames: Sequence[TriangleMesh], encoder: SequenceEncoder, found: Sequ
 
 @pytest.mark.parametrize(
     "options",
-    [{}, {"gop": 4}, {"low_delay": 1, "gop": 5}, {"low_delay": 3}, {"keep_order": True}, {"gop": 1}, {"runs": True}],
+    [
+        {},
+        {"gop": 4},
+        {"low_delay": 1, "gop": 5},
+        {"low_delay": 3},
+        {"keep_order": True},
+        {"gop": 1},
+        {"runs": True},
+    ],
     ids=str,
 )
 def test_values_keep_their_bounds(options: dict[str, object]) -> None:
@@ -93,7 +105,11 @@ def test_values_are_as_near_as_is_asked() -> None:
     asked = {"color": "exact", "heat": "0.001", "velocity": "10bits", "part": "1%rms"}
     data, encoder = encoded(FRAMES, attributes=asked)
     off = errors(FRAMES, encoder, decoded(data))
-    assert off["color"] == 0.0 and off["heat"] <= 0.001 and off["velocity"] <= extent("velocity") / 1023 / 2
+    assert (
+        off["color"] == 0.0
+        and off["heat"] <= 0.001
+        and off["velocity"] <= extent("velocity") / 1023 / 2
+    )
     assert len(data) > len(encoded(FRAMES)[0])
 
 
@@ -111,7 +127,10 @@ def test_what_stays_costs_next_to_nothing() -> None:
 @pytest.mark.parametrize("options", [{"gop": 3}, {"low_delay": 1}], ids=str)
 def test_an_attribute_may_begin_to_move_later_and_stop(options: dict[str, object]) -> None:
     shown = [0, 0, 0, 0, 4, 5, 6, 6, 6, 6]
-    frames = [replace(with_attributes(t), attributes=with_attributes(k).attributes) for t, k in enumerate(shown)]
+    frames = [
+        replace(with_attributes(t), attributes=with_attributes(k).attributes)
+        for t, k in enumerate(shown)
+    ]
     data, encoder = encoded(frames, **options)
     off = errors(frames, encoder, decoded(data))
     assert off["color rms"] <= 0.01 * extent("color") and off["heat rms"] <= 0.0025 * extent("heat")
@@ -151,7 +170,8 @@ def test_runs_have_attributes_that_move() -> None:
     assert encoder.run_starts == [0, 2, 4] and len(found) == 7
     for given, event in zip(frames, found, strict=True):
         color, own = given.attributes[0].values, event.attributes[0].values
-        off = np.sort(color, axis=0).astype(float) - np.sort(own, axis=0)  # no farther than in any other order
+        # No farther than in any other order.
+        off = np.sort(color, axis=0).astype(float) - np.sort(own, axis=0)
         assert np.sqrt(np.square(off).mean()) <= 0.01 * extent("color")
     declared = packets_of(data, packets.Declared)
     assert len(declared) == 8  # the first mesh returns
@@ -159,7 +179,8 @@ def test_runs_have_attributes_that_move() -> None:
 
 def test_a_mesh_of_one_face_and_a_mesh_of_many_components() -> None:
     corner = TriangleMesh(np.eye(3), np.array([[0, 1, 2]]))
-    far = np.concatenate([corner.positions + 3 * k for k in (*range(20), *[9] * 30)])  # where 31 meet, one counts
+    # Where 31 meet, one counts.
+    far = np.concatenate([corner.positions + 3 * k for k in (*range(20), *[9] * 30)])
     many = TriangleMesh(far, np.arange(len(far), dtype=np.int32).reshape(-1, 3))
     for mesh in (corner, many):
         heat = (mesh.positions @ (1, 2, 4)).astype(np.float32)
@@ -171,10 +192,16 @@ def test_a_mesh_of_one_face_and_a_mesh_of_many_components() -> None:
 def test_what_cannot_be_promised_is_refused() -> None:
     with pytest.raises(OptionError, match="cannot be kept exact: ask for a bound"):
         encoded(FRAMES, attributes={"heat": "exact"})
-    late = [replace(with_attributes(t), attributes=with_attributes(max(0, t - 4)).attributes) for t in range(9)]
+    late = [
+        replace(with_attributes(t), attributes=with_attributes(max(0, t - 4)).attributes)
+        for t in range(9)
+    ]
     with pytest.raises(OptionError, match="floats that do cannot be exact"):
         encoded(late, gop=3, attributes={"heat": "exact"})
-    vast = [replace(MESH, attributes=(Attribute("vast", np.full(len(MESH.positions), 1e200 * t)),)) for t in range(3)]
+    vast = [
+        replace(MESH, attributes=(Attribute("vast", np.full(len(MESH.positions), 1e200 * t)),))
+        for t in range(3)
+    ]
     with pytest.raises(OptionError, match="beyond 1e\\+100 cannot"):
         encoded(vast)
     with pytest.raises(MeshError, match="not finite"):

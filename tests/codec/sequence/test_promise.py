@@ -39,7 +39,10 @@ def looks(original: np.ndarray, decoded: np.ndarray, faces: np.ndarray) -> list[
 
 def farthest(original: np.ndarray, decoded: np.ndarray) -> float:
     """In diagonals of the first frame."""
-    return float(np.linalg.norm(decoded - original, axis=2).max() / np.linalg.norm(np.ptp(original[0], axis=0)))
+    return float(
+        np.linalg.norm(decoded - original, axis=2).max()
+        / np.linalg.norm(np.ptp(original[0], axis=0))
+    )
 
 
 @pytest.mark.parametrize("gop", [3, 256])
@@ -64,17 +67,25 @@ def test_no_vertex_is_farther_off_than_reported(absolute: bool) -> None:
 def test_low_delay_keeps_promises_frame_by_frame(look: float) -> None:
     positions, faces = bending(6)
     positions[5] += 0.004 * np.random.default_rng(0).standard_normal(positions[5].shape)
-    _, original, decoded, found = kept(positions, faces, Contract(0.002, look=look), low_delay=1, gop=4)
+    _, original, decoded, found = kept(
+        positions, faces, Contract(0.002, look=look), low_delay=1, gop=4
+    )
     assert 0.0014 < farthest(original, decoded) <= 0.002
     assert max(looks(original, decoded, found)) <= look
 
 
-@pytest.mark.parametrize("promise", [Contract(0.002), Contract(0.1, look=1.0), Contract(1e-3, absolute=True)])
+@pytest.mark.parametrize(
+    "promise", [Contract(0.002), Contract(0.1, look=1.0), Contract(1e-3, absolute=True)]
+)
 @pytest.mark.parametrize("low_delay", [0, 1])
 def test_a_search_that_takes_a_step_too_coarse_is_caught(
     promise: Contract, low_delay: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(StepSearch, "run", lambda search, encode, *_, **__: encode(0.04, np.ones(len(search._frames))))
+    monkeypatch.setattr(
+        StepSearch,
+        "run",
+        lambda search, encode, *_, **__: encode(0.04, np.ones(len(search._frames))),
+    )
     with pytest.raises(bsm.VerificationError, match=r"is off by|has look"):
         kept(*bending(4), promise, low_delay=low_delay)
 
@@ -128,7 +139,9 @@ class Encoding:
             yield decoded
 
 
-def search_of(frames: int = 4, kind: type[StepSearch] = StepSearch) -> tuple[StepSearch, np.ndarray]:
+def search_of(
+    frames: int = 4, kind: type[StepSearch] = StepSearch
+) -> tuple[StepSearch, np.ndarray]:
     """A search for a bound on vertex errors, and its frames."""
     positions, faces = bending(frames)
     return kind(positions, faces, FAR, UNITS, 1), positions
@@ -151,7 +164,9 @@ def test_a_search_ends_when_another_attempt_saves_less_than_its_price() -> None:
         steps: list[float] = []
         search, frames = search_of()
 
-        def encode(step: float, _: Matrix, steps: list[float] = steps, frames: np.ndarray = frames) -> Encoding:
+        def encode(
+            step: float, _: Matrix, steps: list[float] = steps, frames: np.ndarray = frames
+        ) -> Encoding:
             steps.append(step)
             return Encoding(frames, step, step / 0.005, 1e6 / math.sqrt(step))
 
@@ -160,7 +175,9 @@ def test_a_search_ends_when_another_attempt_saves_less_than_its_price() -> None:
 
 
 @pytest.mark.parametrize("hidden", [4, 17])
-def test_a_frame_in_doubt_is_drawn_before_an_encoding_is_returned(hidden: int, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_frame_in_doubt_is_drawn_before_an_encoding_is_returned(
+    hidden: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """A frame that errors of normals do not tell of is found, and the search goes on from it."""
     look = StepSearch._look
 
@@ -188,7 +205,9 @@ def test_weights_follow_the_farthest_vertices_where_these_are_nearest_to_their_b
     assert later == pytest.approx(0.003 / 1.5)
 
 
-def test_frames_that_are_only_expected_to_exceed_the_bound_are_drawn_before_an_encoding_is_thrown_away() -> None:
+def test_frames_that_are_only_expected_to_exceed_the_bound_are_drawn_before_an_encoding_is_thrown_away() -> (
+    None
+):
     """One frame of ten looks much better than its error of normals tells: all others would seem to exceed."""
     foreseen = np.full(10, 1.0)
     foreseen[4] = 0.5
@@ -205,7 +224,9 @@ def test_frames_that_are_only_expected_to_exceed_the_bound_are_drawn_before_an_e
 
     positions, faces = bending(10)
     search = Expecting(positions, faces, Contract(0.02, look=1.0), UNITS, 1)
-    search.run(lambda step, _: Encoding(positions, step, 0.5, 1.0 / step), 0.0033, 1e-6, weighed=True)
+    search.run(
+        lambda step, _: Encoding(positions, step, 0.5, 1.0 / step), 0.0033, 1e-6, weighed=True
+    )
     assert len(attempts) < 5 and search.worst_look == pytest.approx(0.99)
 
 
@@ -223,7 +244,9 @@ def test_a_search_that_runs_out_of_attempts_ends_in_a_finer_stream(least: float)
         assert 0.0004 <= search.run(encode, first, finest, weighed=True).step <= 0.0005
     search, frames = search_of()
     with pytest.raises(bsm.TargetError, match="cannot be kept in every frame"):
-        search.run(lambda step, _: Encoding(frames, step, 2.0, 1.0 / step), 0.003, 0.001, weighed=True)
+        search.run(
+            lambda step, _: Encoding(frames, step, 2.0, 1.0 / step), 0.003, 0.001, weighed=True
+        )
 
 
 def test_where_the_smallest_stream_fails_the_next_one_is_taken() -> None:
@@ -250,14 +273,20 @@ def test_looks_are_of_positions_in_the_unit_of_the_mesh() -> None:
     right = np.stack([index[1:, :-1], index[:-1, 1:], index[1:, 1:]], axis=-1).reshape(-1, 3)
     frames = np.repeat(np.stack([x, y, 0.0 * x], axis=-1).reshape(1, -1, 3) + 5e5, 9, axis=0)
     promise = Contract(0.02, look=0.105236)
-    _, original, decoded, faces = kept(frames, np.concatenate([left, right]), promise, low_delay=4, gop=17)
+    _, original, decoded, faces = kept(
+        frames, np.concatenate([left, right]), promise, low_delay=4, gop=17
+    )
     assert max(looks(original, decoded, faces)) <= promise.look * (1 + 1e-6)
 
 
 def test_what_was_seen_of_a_series_foretells_the_rest() -> None:
     random, seen = np.random.default_rng(0), np.arange(0, 200, 5)
     noise = 0.04 * random.standard_normal(200)
-    for series, limit in ((noise, 0.05), (noise + np.linspace(0.0, 2.0, 200), 0.15), (noise + noise.cumsum(), 0.5)):
+    for series, limit in (
+        (noise, 0.05),
+        (noise + np.linspace(0.0, 2.0, 200), 0.15),
+        (noise + noise.cumsum(), 0.5),
+    ):
         mean, variance = _foretold(seen, series[seen], np.zeros(len(seen)), 200)
         others = np.setdiff1d(np.arange(200), seen)
         assert mean[seen] == pytest.approx(series[seen]) and variance[seen].max() < 1e-9
@@ -269,7 +298,9 @@ def test_what_was_seen_of_a_series_foretells_the_rest() -> None:
 
 def test_frames_that_look_worse_weigh_more() -> None:
     weights = _evening(np.where(np.arange(40) < 20, 0.5, 1.0))
-    assert weights.mean() == pytest.approx(0.0) and weights[30] - weights[5] == pytest.approx(np.log(2.0))
+    assert weights.mean() == pytest.approx(0.0) and weights[30] - weights[5] == pytest.approx(
+        np.log(2.0)
+    )
     assert np.array_equal(_evening(np.zeros(3)), np.zeros(3))
 
 
@@ -278,10 +309,13 @@ def test_the_progress_of_a_search_grows_to_the_whole(promise: Contract | None) -
     positions, faces = bending(6)
     reports: list[float] = []
     options = bsm.SequenceOptions(block_size=100, promise=promise, threads=1, gop=3)
-    chunks = bsm.SequenceEncoder(faces, options, 6).chunks(positions, lambda done, count: reports.append(done / count))
+    chunks = bsm.SequenceEncoder(faces, options, 6).chunks(
+        positions, lambda done, count: reports.append(done / count)
+    )
     assert b"".join(chunks)
     assert reports[0] < 0.4 and reports[-1] == max(reports) == 1.0 and len(set(reports)) > 3
-    assert promise or reports == sorted(reports)  # frames in doubt may be more than a search let expect
+    # Frames in doubt may be more than a search let expect.
+    assert promise or reports == sorted(reports)
 
 
 def test_frames_of_which_nothing_is_seen_are_no_obstacle() -> None:
@@ -302,5 +336,7 @@ def test_what_cannot_be_kept_is_an_error() -> None:
 @pytest.mark.parametrize("width", [0.0, 1.0])
 def test_faces_without_area_are_encoded(width: float) -> None:
     frames = np.stack([np.linspace(0, width, 6)[:, None] * [k, 0, 0] for k in range(1, 5)])
-    _, original, decoded, _ = kept(frames, np.array([[0, 1, 2], [3, 4, 5]], np.int32), Contract(0.01, look=1.0))
+    _, original, decoded, _ = kept(
+        frames, np.array([[0, 1, 2], [3, 4, 5]], np.int32), Contract(0.01, look=1.0)
+    )
     assert np.abs(original - decoded).max() <= 0.01

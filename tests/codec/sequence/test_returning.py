@@ -24,7 +24,9 @@ def options(**changes: object) -> SequenceOptions:
     return SequenceOptions(**{"block_size": 100, "step": STEP, "threads": 1, **changes})  # type: ignore[arg-type]
 
 
-def coded(positions: np.ndarray, faces: np.ndarray, **changes: object) -> tuple[bytes, np.ndarray, np.ndarray]:
+def coded(
+    positions: np.ndarray, faces: np.ndarray, **changes: object
+) -> tuple[bytes, np.ndarray, np.ndarray]:
     """The stream, what its frames are, and what they should be."""
     encoder = SequenceEncoder(faces, options(**changes), len(positions))
     data = b"".join(encoder.chunks(positions))
@@ -63,15 +65,21 @@ def test_groups_of_frames_tell_of_their_own() -> None:
     turns = [*range(6), *range(6), *[3, 4, 5, 5, 4, 3] * 2]
     data, decoded, original = coded(positions[turns], faces, gop=12)
     assert places(data) == [turns[:12], [0, 1, 2, 2, 1, 0] * 2]
-    assert np.abs(decoded - original).max() < 4 * STEP * np.linalg.norm(np.ptp(positions[0], axis=0))
+    assert np.abs(decoded - original).max() < 4 * STEP * np.linalg.norm(
+        np.ptp(positions[0], axis=0)
+    )
 
 
 def test_promises_are_kept_as_frames_are_shown() -> None:
     positions, faces = bending(6)
     noise = 1e-5 * np.random.default_rng(0).standard_normal((12, *positions[0].shape))
-    data, decoded, original = coded(positions[TURNS["loop"]] + noise, faces, promise=bsm.Contract(0.004))
+    data, decoded, original = coded(
+        positions[TURNS["loop"]] + noise, faces, promise=bsm.Contract(0.004)
+    )
     assert places(data) == [TURNS["loop"]]
-    far = np.linalg.norm(decoded - original, axis=2).max() / np.linalg.norm(np.ptp(positions[0], axis=0))
+    far = np.linalg.norm(decoded - original, axis=2).max() / np.linalg.norm(
+        np.ptp(positions[0], axis=0)
+    )
     assert far <= 0.004
 
 
@@ -80,10 +88,14 @@ def test_frames_whose_attributes_differ_are_not_the_same() -> None:
     heat = np.linspace(0.0, 300.0, len(positions[0]))
     turns, warm = [0, 1, 2, 3, 0, 1, 2, 3], [1.0, 2.0, 3.0, 4.0, 1.0, 5.0, 3.0, 6.0]
     frames = [
-        TriangleMesh(positions[turn], faces, (Attribute("heat", (heat * factor).astype(np.float32)),))
+        TriangleMesh(
+            positions[turn], faces, (Attribute("heat", (heat * factor).astype(np.float32)),)
+        )
         for turn, factor in zip(turns, warm, strict=True)
     ]
-    data = b"".join(SequenceEncoder(faces, options(keep_order=True, attributes={"heat": 0.5}), 8).chunks(frames))
+    data = b"".join(
+        SequenceEncoder(faces, options(keep_order=True, attributes={"heat": 0.5}), 8).chunks(frames)
+    )
     assert places(data) == [[0, 1, 2, 3, 0, 4, 2, 5]]
     for frame, found in zip(frames, bsm.decode_frames(data), strict=True):
         assert np.abs(found.attributes[0].values - frame.attributes[0].values).max() <= 0.5

@@ -18,7 +18,9 @@ PIECES = ((10, 5), (7, 3), (10, 4), (5, 1), (7, 2))
 
 
 def encoder_of(frames, **options):
-    chosen = bsm.SequenceOptions(**{"step": 0.003, "block_size": 30, "threads": 1, "runs": True, **options})
+    chosen = bsm.SequenceOptions(
+        **{"step": 0.003, "block_size": 30, "threads": 1, "runs": True, **options}
+    )
     return bsm.SequenceEncoder(frames[0].faces, chosen, len(frames))
 
 
@@ -36,8 +38,12 @@ def restored(frames, **options):
                 if isinstance(event, bsm.FrameEvent):
                     own = frames[event.index]
                     faces = own.faces[encoder.face_order]
-                    assert np.array_equal(np.sort(encoder.vertex_order[event.faces]), np.sort(faces))
-                    found.append(np.abs(event.positions - own.positions[encoder.vertex_order]).max())
+                    assert np.array_equal(
+                        np.sort(encoder.vertex_order[event.faces]), np.sort(faces)
+                    )
+                    found.append(
+                        np.abs(event.positions - own.positions[encoder.vertex_order]).max()
+                    )
     return encoder, found
 
 
@@ -75,7 +81,10 @@ def test_a_target_is_for_frames_that_share_their_faces():
         encoded(meshes((10, 3), (7, 2)), target=bsm.SequenceTarget("kg", 0.5))
     same = meshes((10, 3))
     assert frames_in(moving_events_of(encoded(same, target=bsm.SequenceTarget("kg", 5.0))))
-    faces, positions = same[0].faces.copy(), np.concatenate([same[0].positions, same[0].positions[:10]])
+    faces, positions = (
+        same[0].faces.copy(),
+        np.concatenate([same[0].positions, same[0].positions[:10]]),
+    )
     ours = faces[::2]  # a seam of joined vertices, which parts
     ours[ours < 10] += len(same[0].positions)
     apart = positions + 0.1 * (np.arange(len(positions)) >= len(same[0].positions))[:, None]
@@ -104,7 +113,12 @@ def test_loss_of_any_frame_stays_within_the_runs_of_one_mesh(way):
     for number in range(1, len(frames)):
         events = moving_events_of(damaged(data, number), tolerant=True)
         found = frames_in(events)
-        lost = {k for event in events if isinstance(event, bsm.LossEvent) and event.frames for k in event.frames}
+        lost = {
+            k
+            for event in events
+            if isinstance(event, bsm.LossEvent) and event.frames
+            for k in event.frames
+        }
         assert found.keys() | lost == set(range(15)) and not found.keys() & lost
         assert all(np.array_equal(found[k].positions, whole[k].positions) for k in found)
         assert all(np.array_equal(found[k].faces, whole[k].faces) for k in found)
@@ -182,8 +196,13 @@ def test_unwelded_frames_of_many_components_and_flat_ones():
 def test_attributes_of_faces_that_change_in_a_run_are_reported() -> None:
     frames = meshes((10, 4))
     heats = [np.float32(t // 2) + np.zeros(len(frames[0].faces), np.float32) for t in range(4)]
-    hot = [replace(f, attributes=(bsm.Attribute("heat", heat, "face"),)) for f, heat in zip(frames, heats, strict=True)]
-    steady = [replace(frame, attributes=(bsm.Attribute("heat", heats[0], "face"),)) for frame in frames]
+    hot = [
+        replace(f, attributes=(bsm.Attribute("heat", heat, "face"),))
+        for f, heat in zip(frames, heats, strict=True)
+    ]
+    steady = [
+        replace(frame, attributes=(bsm.Attribute("heat", heats[0], "face"),)) for frame in frames
+    ]
     options = bsm.SequenceOptions(step=0.003, block_size=30, threads=1, runs=True)
     for given, notes in ((hot, ["heat changes at frame 2, but stays as before"]), (steady, [])):
         encoder = bsm.SequenceEncoder(frames[0].faces, options, 4, attributes=given[0].attributes)
@@ -191,7 +210,9 @@ def test_attributes_of_faces_that_change_in_a_run_are_reported() -> None:
         assert [note for note in encoder.notes if "changes" in note] == notes
 
 
-@pytest.mark.parametrize(("far", "said"), [(np.nan, "a number that is not finite"), (1e7, "diagonals from the first")])
+@pytest.mark.parametrize(
+    ("far", "said"), [(np.nan, "a number that is not finite"), (1e7, "diagonals from the first")]
+)
 def test_a_vertex_that_flies_off_is_named(far: float, said: str) -> None:
     frames = meshes((7, 4))
     positions = frames[2].positions.copy()

@@ -52,7 +52,8 @@ def test_rigid_motion_costs_little_more_than_its_basis():
     data, original = encoded(positions, faces, gop=40)
     static = len(encoded(positions[:1], faces)[0])
     assert compare_sequences(original, bsm.decode_sequence(data)[0], faces).kg < 0.2
-    assert len(data) - static < 40 * 12 * 3  # 12 numbers move it, and a frame of it alone takes a thousand bytes
+    # 12 numbers move it, and a frame of it alone takes a thousand bytes.
+    assert len(data) - static < 40 * 12 * 3
 
 
 @pytest.mark.parametrize("way", [*WAYS, {"low_delay": 1, "promise": bsm.Contract(0.002)}])
@@ -80,12 +81,16 @@ def test_memory_does_not_grow_with_the_number_of_frames(way):
             yield positions[number % 8]
 
     def encode_all(count):
-        for _ in bsm.SequenceEncoder(faces, options(step=0.01, threads=1, **way)).chunks(frames(count)):
+        for _ in bsm.SequenceEncoder(faces, options(step=0.01, threads=1, **way)).chunks(
+            frames(count)
+        ):
             pass
 
     def decode_all(count):
         decoder = bsm.SequenceDecoder(threads=1)
-        chunks = bsm.SequenceEncoder(faces, options(step=0.01, threads=1, **way)).chunks(frames(count))
+        chunks = bsm.SequenceEncoder(faces, options(step=0.01, threads=1, **way)).chunks(
+            frames(count)
+        )
         while (event := decoder.next_event()) is not bsm.END_OF_STREAM:
             if event is bsm.NEED_DATA:
                 chunk = next(chunks, b"")
@@ -100,7 +105,9 @@ def test_memory_does_not_grow_with_the_number_of_frames(way):
 @pytest.mark.parametrize("together", [1, 2])
 def test_frames_that_return_cost_next_to_nothing(together):
     positions, faces = bending(12)
-    data, original = encoded(np.concatenate([positions, positions]), faces, low_delay=together, gop=24)
+    data, original = encoded(
+        np.concatenate([positions, positions]), faces, low_delay=together, gop=24
+    )
     sizes = np.array([size for _, _, size in packets_of(data, Gop)])
     half = len(sizes) // 2
     assert sizes[half + 1 :].sum() < 0.3 * sizes[1:half].sum()
@@ -117,7 +124,9 @@ def test_frames_that_do_not_move_cost_next_to_nothing(way):
 
 
 @pytest.mark.parametrize(
-    "mesh", [tetrahedron(), together(tetrahedron(), patch(5, 4), torus(12, 8)), patch(2, 2)], ids=["one", "many", "two"]
+    "mesh",
+    [tetrahedron(), together(tetrahedron(), patch(5, 4), torus(12, 8)), patch(2, 2)],
+    ids=["one", "many", "two"],
 )
 @pytest.mark.parametrize("way", WAYS)
 def test_odd_meshes(mesh, way):
@@ -133,7 +142,9 @@ def test_motion_far_beyond_the_first_frame(way):
     data, original = encoded(positions, faces, **way)
     assert np.abs(bsm.decode_sequence(data)[0] - original).max() < 0.05
     with pytest.raises(bsm.OptionError, match="too fine"):
-        encode_sequence(positions * [1e4, 1, 1] + 1e6, faces, options(step=2e-6, first_step=0.001, **way))
+        encode_sequence(
+            positions * [1e4, 1, 1] + 1e6, faces, options(step=2e-6, first_step=0.001, **way)
+        )
 
 
 @pytest.mark.parametrize("how", ["removed", "changed"])
@@ -145,7 +156,9 @@ def test_a_lost_gop_costs_what_refers_to_it(how, index, behind):
     events = moving_events_of(without(data, Gop, index, how), tolerant=True)
     lost = [event for event in events if isinstance(event, bsm.LossEvent)]
     missing = range(8 * index, min(8 * behind, 45))
-    assert [frame for event in lost for frame in event.frames] == list(missing) and lost[0].error.message
+    assert [frame for event in lost for frame in event.frames] == list(missing) and lost[
+        0
+    ].error.message
     assert_same(frames_in(events), bsm.decode_sequence(data)[0], set(range(45)) - set(missing))
     assert isinstance(events[-1], bsm.EndEvent)
     with pytest.raises(bsm.CorruptError):
@@ -157,7 +170,8 @@ def test_a_lost_frame_costs_what_refers_to_it(how):
     positions, faces = bending(20)
     data, _ = encoded(positions, faces, low_delay=1)
     events = moving_events_of(without(data, Gop, 5, how), tolerant=True)
-    assert sum(len(event.frames) for event in events if isinstance(event, bsm.LossEvent)) == 3  # frames 5, 6 and 7 of 8
+    # Frames 5, 6 and 7 of 8.
+    assert sum(len(event.frames) for event in events if isinstance(event, bsm.LossEvent)) == 3
     assert_same(frames_in(events), bsm.decode_sequence(data)[0], set(range(20)) - {5, 6, 7})
 
 
@@ -165,7 +179,9 @@ def test_losses_at_the_end_of_a_sequence_of_unknown_length():
     positions, faces = bending(16)
     data = b"".join(bsm.SequenceEncoder(faces, options()).chunks(positions))
     events = moving_events_of(without(data, Gop, 1, "changed"), tolerant=True)
-    assert [(e.frames.start, len(e.frames)) for e in events if isinstance(e, bsm.LossEvent)] == [(8, 0)]
+    assert [(e.frames.start, len(e.frames)) for e in events if isinstance(e, bsm.LossEvent)] == [
+        (8, 0)
+    ]
 
 
 def test_the_beginning_must_be_whole():
@@ -193,7 +209,9 @@ def test_a_frame_of_another_shape_or_not_finite_is_named():
             list(bsm.SequenceEncoder(faces, options(), announced).chunks(bending(5)[0]))
 
 
-@pytest.mark.parametrize(("kind", "value"), [("kg", 0.2), ("theta_deg", 1.0), ("nmsve_db", -45.0), ("bpvf", 1.0)])
+@pytest.mark.parametrize(
+    ("kind", "value"), [("kg", 0.2), ("theta_deg", 1.0), ("nmsve_db", -45.0), ("bpvf", 1.0)]
+)
 def test_targets(kind, value):
     positions, faces = bending(12)
     target = bsm.SequenceTarget(kind, value)
@@ -208,8 +226,12 @@ def test_targets(kind, value):
 
 def test_a_target_that_cannot_be_met_is_an_error():
     positions, faces = bending(3)
-    encoder = bsm.SequenceEncoder(faces, options(target=bsm.SequenceTarget("bpvf", 0.01)), len(positions))
-    with pytest.raises(bsm.TargetError, match=r"0\.01 bits per vertex and frame at most cannot be reached"):
+    encoder = bsm.SequenceEncoder(
+        faces, options(target=bsm.SequenceTarget("bpvf", 0.01)), len(positions)
+    )
+    with pytest.raises(
+        bsm.TargetError, match=r"0\.01 bits per vertex and frame at most cannot be reached"
+    ):
         list(encoder.chunks(positions))
     for kind, value in (("size", 3.0), ("kg", 0.0), ("bpvf", math.inf)):
         with pytest.raises(bsm.OptionError):
@@ -231,7 +253,9 @@ def test_limits():
 def test_dictionaries_without_room_are_made_for_every_gop(way, threads):
     data, _ = encoded(*bending(16, 60, 32), **way)
     ample, _ = bsm.decode_sequence(data, threads=threads)
-    np.testing.assert_array_equal(bsm.decode_sequence(data, limits=least_memory(data), threads=threads)[0], ample)
+    np.testing.assert_array_equal(
+        bsm.decode_sequence(data, limits=least_memory(data), threads=threads)[0], ample
+    )
 
 
 def memory_of(size):
@@ -252,7 +276,8 @@ def least_memory(data):
 
 def test_gops_end_earlier_where_decoders_lack_the_memory(monkeypatch):
     positions, faces = bending(32, 60, 32)
-    positions = positions + 1e-3 * np.random.default_rng(3).normal(size=positions.shape)  # many components
+    # Many components.
+    positions = positions + 1e-3 * np.random.default_rng(3).normal(size=positions.shape)
     short, _ = encoded(positions, faces, gop=8, step=1e-3)
     granted = least_memory(short)
     monkeypatch.setitem(NAMED_LIMITS, "default", lambda: granted)
@@ -273,7 +298,9 @@ def shots(frames, *changes):
         directions, amplitudes = random.normal(size=(2, 8, 3))
         paces, phases = random.uniform(0.1, 0.5, (8, 1)), random.uniform(0.0, 6.0, (8, 1))
         fields = np.sin(3.0 * directions @ mesh.positions.T)[..., None] * amplitudes[:, None]
-        moved[first:end] += 0.05 * np.einsum("kt,kni->tni", np.sin(paces * np.arange(end - first) + phases), fields)
+        moved[first:end] += 0.05 * np.einsum(
+            "kt,kni->tni", np.sin(paces * np.arange(end - first) + phases), fields
+        )
     return moved, mesh.faces
 
 
@@ -287,7 +314,9 @@ def test_gops_begin_where_motion_changes(changes, monkeypatch):
     whole = len(encoded(positions, faces, gop=None, step=0.005)[0])
     assert len(data) < 0.95 * whole if changes else len(data) == whole
     for longest in (48, 24):  # motion that lasts takes more in shorter groups
-        assert changes or len(encoded(positions, faces, gop=longest, step=0.005)[0]) > 1.1 * len(data)
+        assert changes or len(encoded(positions, faces, gop=longest, step=0.005)[0]) > 1.1 * len(
+            data
+        )
 
 
 def test_a_large_basis_is_the_decoders():
@@ -306,7 +335,10 @@ def test_frames_that_are_shown_grant_work():
     granted = bsm.Limits(work=0.71 * work, work_per_vertex=per_vertex, work_per_byte=0)
     assert len(bsm.decode_sequence(data, limits=granted)[0]) == 16
     with pytest.raises(bsm.LimitError, match="work"):
-        bsm.decode_sequence(data, limits=bsm.Limits(work=0.71 * work, work_per_vertex=per_vertex / 2, work_per_byte=0))
+        bsm.decode_sequence(
+            data,
+            limits=bsm.Limits(work=0.71 * work, work_per_vertex=per_vertex / 2, work_per_byte=0),
+        )
 
 
 def assert_same(found, decoded, indices):
@@ -322,7 +354,9 @@ FRAMES = np.array([MESH.positions * [1, 1, 1 + 0.1 * k] for k in range(6)])
 def with_attributes() -> tuple[bsm.Attribute, ...]:
     corners = MESH.positions[MESH.faces][:, :, :2] + (MESH.positions[MESH.faces][:, :1, 2:] > 0)
     return (
-        bsm.Attribute("color", (127 + 100 * np.sin(MESH.positions)).astype(np.uint8), "vertex", "color"),
+        bsm.Attribute(
+            "color", (127 + 100 * np.sin(MESH.positions)).astype(np.uint8), "vertex", "color"
+        ),
         bsm.Attribute("uv", corners.reshape(-1, 2).astype(np.float32), "corner", "texcoord"),
         bsm.Attribute("part", np.arange(len(MESH.faces)) // 100, "face"),
     )
@@ -330,16 +364,25 @@ def with_attributes() -> tuple[bsm.Attribute, ...]:
 
 def test_they_come_back_before_the_second_frame():
     options = bsm.SequenceOptions(keep_order=True, attributes={"uv": "12bits"})
-    stream = encode_sequence(FRAMES, MESH.faces, options, metadata={"name": "spin"}, mesh_attributes=with_attributes())
+    stream = encode_sequence(
+        FRAMES, MESH.faces, options, metadata={"name": "spin"}, mesh_attributes=with_attributes()
+    )
     with bsm.SequenceDecoder() as decoder:
         order = [type(event) for event in all_events(decoder, [stream])]
         found = {attribute.name: attribute for attribute in decoder.attributes}
     assert order.count(bsm.FrameEvent) == 6 and bsm.LossEvent not in order
-    assert order.index(bsm.FrameEvent) > max(i for i, kind in enumerate(order) if kind is bsm.AttributeEvent)
+    assert order.index(bsm.FrameEvent) > max(
+        i for i, kind in enumerate(order) if kind is bsm.AttributeEvent
+    )
     color, uv, part = with_attributes()
-    assert (found["color"].values == color.values).all() and (found["part"].values == part.values).all()
+    assert (found["color"].values == color.values).all() and (
+        found["part"].values == part.values
+    ).all()
     wanted = uv.values[uv.indices]
-    assert np.abs(found["uv"].values[found["uv"].indices] - wanted).max() <= 0.51 * np.ptp(wanted) / 4095
+    assert (
+        np.abs(found["uv"].values[found["uv"].indices] - wanted).max()
+        <= 0.51 * np.ptp(wanted) / 4095
+    )
     positions, faces = bsm.decode_sequence(stream)
     assert positions.shape == FRAMES.shape and (faces == MESH.faces).all()
 

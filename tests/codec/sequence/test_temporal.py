@@ -44,7 +44,10 @@ def test_the_finer_the_larger_what_a_component_multiplies() -> None:
 
 def test_what_costs_more_than_it_brings_is_left_out() -> None:
     least = np.sqrt(WORTH * COLUMNS / ROWS) * STEP  # the deviation whose energy just pays
-    assert learn_basis(motion_of([1.0, 1.01 * least, 0.99 * least])[0], STEP, 1000)[0].shape == (COLUMNS, 2)
+    assert learn_basis(motion_of([1.0, 1.01 * least, 0.99 * least])[0], STEP, 1000)[0].shape == (
+        COLUMNS,
+        2,
+    )
     assert learn_basis(np.zeros((ROWS, COLUMNS)), STEP, 1000)[0].shape == (COLUMNS, 0)
 
 
@@ -53,9 +56,15 @@ def test_motion_is_the_product_of_its_fields_and_shapes(frames, vertices):
     random = np.random.default_rng(3)
     given = np.tensordot(random.normal(size=(frames, 4)), random.normal(size=(4, vertices, 3)), 1)
     motion = Decomposition(given).motion(STEP)
-    np.testing.assert_allclose(np.tensordot(motion.shapes, motion.fields, (0, 1)).transpose(1, 2, 0), given, atol=1e-6)
+    np.testing.assert_allclose(
+        np.tensordot(motion.shapes, motion.fields, (0, 1)).transpose(1, 2, 0), given, atol=1e-6
+    )
     assert len(motion.shapes) <= min(12, 3 * frames, vertices)
-    assert Decomposition(np.zeros((frames, vertices, 3))).motion(STEP).shapes.shape == (0, 3, frames)
+    assert Decomposition(np.zeros((frames, vertices, 3))).motion(STEP).shapes.shape == (
+        0,
+        3,
+        frames,
+    )
 
 
 def clip(seed, frames, rank=6, vertices=500):
@@ -74,8 +83,16 @@ def test_gops_are_as_long_as_clips(lengths):
 
 def test_loops_and_jumps_are_not_cut():
     frames = clip(0, 240)
-    jumps = frames.reshape(12, 20, -1, 3)[np.random.default_rng(0).permutation(12)].reshape(frames.shape)
-    for whole in (np.tile(frames[:40], (6, 1, 1)), jumps, frames[:12], frames[:1], np.zeros((50, 9, 3))):
+    jumps = frames.reshape(12, 20, -1, 3)[np.random.default_rng(0).permutation(12)].reshape(
+        frames.shape
+    )
+    for whole in (
+        np.tile(frames[:40], (6, 1, 1)),
+        jumps,
+        frames[:12],
+        frames[:1],
+        np.zeros((50, 9, 3)),
+    ):
         assert lengths_of(Decomposition(whole).motion(STEP), STEP) == [len(whole)]
 
 
@@ -97,7 +114,9 @@ def one_by_one(free):
         vector = free[:, k].copy()
         if length := np.linalg.norm(vector):
             vector[k] += -length if vector[k] < 0.0 else length
-            columns[:, k + 1 :] -= np.outer(vector, 2.0 * (vector @ columns[:, k + 1 :]) / (vector @ vector))
+            columns[:, k + 1 :] -= np.outer(
+                vector, 2.0 * (vector @ columns[:, k + 1 :]) / (vector @ vector)
+            )
     return columns
 
 

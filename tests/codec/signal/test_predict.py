@@ -23,7 +23,14 @@ def test_positions_that_do_not_fit_are_refused():
 
 def test_prediction_saves_bits_and_error():
     mesh = torus(90, 60)
-    options = {"block_size": 250, "overlap": 1.0, "keep": 0.12, "key_interval": 0, "step": 0.004, "threads": 1}
+    options = {
+        "block_size": 250,
+        "overlap": 1.0,
+        "keep": 0.12,
+        "key_interval": 0,
+        "step": 0.004,
+        "threads": 1,
+    }
     held = Encoder(mesh, encode_options(**options)).result()
     loose = Encoder(mesh, encode_options(**options, predict=False)).result()
     assert held.size < 0.9 * loose.size

@@ -5,7 +5,17 @@ from functools import cache
 import numpy as np
 import pytest
 
-from bsm import BlockEvent, Decoder, EndEvent, Limits, LossEvent, RefinementEvent, TriangleMesh, decode, encode
+from bsm import (
+    BlockEvent,
+    Decoder,
+    EndEvent,
+    Limits,
+    LossEvent,
+    RefinementEvent,
+    TriangleMesh,
+    decode,
+    encode,
+)
 from bsm._core import Decoder as Engine
 from bsm.bitstream.container.wire import FrameType
 from bsm.codec.decoding import BLOCK, REFINEMENT, Event, mask_of
@@ -47,7 +57,9 @@ def test_a_scan_is_on_cells_and_shown_as_a_whole_early() -> None:
             assert np.abs(shown - whole.positions).max() < 0.1
     assert np.array_equal(shown, whole.positions)
     base = events_of(stream(), layers=1)
-    assert isinstance(base[-1], EndEvent) and not any(isinstance(event, RefinementEvent) for event in base)
+    assert isinstance(base[-1], EndEvent) and not any(
+        isinstance(event, RefinementEvent) for event in base
+    )
 
 
 def test_some_vertices_come_where_all_are_that_blocks_bring() -> None:
@@ -63,7 +75,8 @@ def test_some_vertices_come_where_all_are_that_blocks_bring() -> None:
 
 
 @pytest.mark.parametrize(
-    "asked", [{"power": 2, "iterations": 2}, {"block_size": 200}, {"overlap": 1.2}, {"key_interval": 2}]
+    "asked",
+    [{"power": 2, "iterations": 2}, {"block_size": 200}, {"overlap": 1.2}, {"key_interval": 2}],
 )
 def test_blocks_that_are_asked_for_are_on_the_mesh(asked: dict[str, float]) -> None:
     header = events_of(encode(scan(), threads=1, **asked))[0].header
@@ -75,7 +88,11 @@ def test_damage_is_bounded_and_named(kind: FrameType, which: int) -> None:
     span = [span for span in spans_of(stream()) if span.type == kind][which]
     damaged = bytearray(stream())
     damaged[span.offset + span.length // 2] ^= 255
-    whole, shown, lost = decode(stream(), threads=1), np.full((len(scan().positions), 3), np.nan), []
+    whole, shown, lost = (
+        decode(stream(), threads=1),
+        np.full((len(scan().positions), 3), np.nan),
+        [],
+    )
     for event in events_of(bytes(damaged), tolerant=True):
         if isinstance(event, BlockEvent | RefinementEvent):
             shown[event.vertices] = event.positions

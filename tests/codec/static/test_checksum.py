@@ -4,12 +4,30 @@ from contextlib import suppress
 
 import pytest
 
-from bsm import CorruptError, Decoder, EndEvent, FrameEvent, LossEvent, SequenceDecoder, decode, decode_frames
+from bsm import (
+    CorruptError,
+    Decoder,
+    EndEvent,
+    FrameEvent,
+    LossEvent,
+    SequenceDecoder,
+    decode,
+    decode_frames,
+)
 from tests.streams import all_events
 from tools.surgery import frames_of, stream_of
 from tools.vectors.store import FOLDER
 
-STATIC = "chain", "ordered", "refined", "smoothing", "grid", "light", "exact", "attribute-recomputed"
+STATIC = (
+    "chain",
+    "ordered",
+    "refined",
+    "smoothing",
+    "grid",
+    "light",
+    "exact",
+    "attribute-recomputed",
+)
 SEQUENCES = "learnt", "low-delay", "runs", "moving-ordered"
 
 
@@ -31,7 +49,10 @@ def events_of(decoder, data):
 
 @pytest.mark.parametrize(
     ("name", "kind"),
-    [*((name, Decoder) for name in STATIC), *((f"sequence-{name}", SequenceDecoder) for name in SEQUENCES)],
+    [
+        *((name, Decoder) for name in STATIC),
+        *((f"sequence-{name}", SequenceDecoder) for name in SEQUENCES),
+    ],
 )
 def test_other_positions_than_the_encoders_are_an_error(name, kind):
     data = unlike(good(name))
@@ -39,7 +60,11 @@ def test_other_positions_than_the_encoders_are_an_error(name, kind):
         decode(data) if kind is Decoder else list(decode_frames(data))
     assert len(events_of(kind(), data)) == len(events_of(kind(), good(name))) - 1
     *_, loss, end = events_of(kind(tolerant=True), data)
-    assert isinstance(loss, LossEvent) and "encoder saw" in str(loss.error) and isinstance(end, EndEvent)
+    assert (
+        isinstance(loss, LossEvent)
+        and "encoder saw" in str(loss.error)
+        and isinstance(end, EndEvent)
+    )
 
 
 @pytest.mark.parametrize("name", SEQUENCES)
@@ -60,7 +85,9 @@ def test_what_is_lost_is_reported_once():
     damaged[-30] ^= 1  # in the layer
     events = events_of(Decoder(tolerant=True), bytes(damaged))
     assert [type(event) for event in events[-2:]] == [LossEvent, EndEvent]
-    assert not any("encoder saw" in str(event.error) for event in events if isinstance(event, LossEvent))
+    assert not any(
+        "encoder saw" in str(event.error) for event in events if isinstance(event, LossEvent)
+    )
 
 
 @pytest.mark.parametrize("name", STATIC)

@@ -26,7 +26,15 @@ from bsm import (
 from bsm.codec.geometry.turns import UNTURNED
 from bsm.codec.static.choice.bounds import Bounds, Measures
 from bsm.codec.static.choice.congruence import coded_transforms, lattice, planes_of, transforms_of
-from bsm.codec.static.choice.grids import Frame, Gridded, _rounded, grid_draft, paying, repeating, rounded
+from bsm.codec.static.choice.grids import (
+    Frame,
+    Gridded,
+    _rounded,
+    grid_draft,
+    paying,
+    repeating,
+    rounded,
+)
 from bsm.codec.static.preamble_encoding import Draft, Prepared
 from bsm.codec.static.ways.grid import SAMPLE, Raster, encode_grid, grid_of, sampled_size
 from tests.refined import header_of
@@ -45,7 +53,9 @@ def about(axis: int, parts: int) -> np.ndarray:
 
 def mirrors() -> np.ndarray:
     """Mirrors along each axis."""
-    return np.array([np.diag([-1.0, 1.0, 1.0]), np.diag([1.0, -1.0, 1.0]), np.diag([1.0, 1.0, -1.0])])
+    return np.array(
+        [np.diag([-1.0, 1.0, 1.0]), np.diag([1.0, -1.0, 1.0]), np.diag([1.0, 1.0, -1.0])]
+    )
 
 
 def bumpy(seed: int, rows: int = 24, columns: int = 18) -> TriangleMesh:
@@ -58,7 +68,8 @@ def bumpy(seed: int, rows: int = 24, columns: int = 18) -> TriangleMesh:
 def copies(mesh: TriangleMesh, turns: np.ndarray, apart: float = 20.0) -> TriangleMesh:
     """A mesh, and its images by turns, apart from it."""
     moved = [
-        TriangleMesh(mesh.positions @ turn.T + [apart * (k + 1), 0.0, 0.0], mesh.faces) for k, turn in enumerate(turns)
+        TriangleMesh(mesh.positions @ turn.T + [apart * (k + 1), 0.0, 0.0], mesh.faces)
+        for k, turn in enumerate(turns)
     ]
     return together(mesh, *moved)
 
@@ -70,14 +81,18 @@ def prepared_of(mesh: TriangleMesh, bits: int) -> Prepared:
 def coded(prepared: Prepared, bits: int) -> tuple[Draft, Draft]:
     """A grid of so many bits, without and with congruent parts."""
     grid, places = _rounded(prepared, bits=bits)
-    return rounded(prepared, bits), repeating(prepared, grid, places, grid_draft(prepared, grid, places, True))
+    return rounded(prepared, bits), repeating(
+        prepared, grid, places, grid_draft(prepared, grid, places, True)
+    )
 
 
 def version_of(data: bytes) -> int:
     return data[4]
 
 
-@pytest.mark.parametrize("turn", [mirrors()[0], about(2, 4), about(1, 7), about(0, 5) @ mirrors()[2]])
+@pytest.mark.parametrize(
+    "turn", [mirrors()[0], about(2, 4), about(1, 7), about(0, 5) @ mirrors()[2]]
+)
 def test_copies_cost_little(turn):
     mesh = copies(bumpy(1), np.array([turn, turn @ turn]))
     plain, both = (b"".join(draft.frames) for draft in coded(prepared_of(mesh, 15), 15))
@@ -95,7 +110,11 @@ def test_a_mesh_without_congruent_parts_is_coded_as_by_1_0():
 
 def test_transforms_that_do_not_pay_are_left_out():
     small = bumpy(7, 5, 4)
-    few = copies(TriangleMesh(0.3 * small.positions + [0.0, 8.0, 0.0], small.faces), np.array([about(1, 7)]), 6.0)
+    few = copies(
+        TriangleMesh(0.3 * small.positions + [0.0, 8.0, 0.0], small.faces),
+        np.array([about(1, 7)]),
+        6.0,
+    )
     mesh = together(copies(bumpy(1), mirrors()[:1]), few)
     prepared = prepared_of(mesh, 8)
     _, both = coded(prepared, 8)
@@ -106,7 +125,9 @@ def test_transforms_that_do_not_pay_are_left_out():
 
 def test_quick_streams_are_also_predicted_from_congruent_parts():
     mesh = copies(bumpy(5), mirrors()[:1])
-    less, more = (encode(mesh, EncodeOptions(effort="quick", congruence=both)) for both in (True, False))
+    less, more = (
+        encode(mesh, EncodeOptions(effort="quick", congruence=both)) for both in (True, False)
+    )
     assert header_of(less).light == header_of(more).light == 1 and header_of(less).transforms > 0
     assert len(less) < 0.7 * len(more)
     assert look(mesh, decode(less)).distance <= 1.0
@@ -117,19 +138,28 @@ def test_quick_streams_are_also_predicted_from_congruent_parts():
 def test_grids_that_are_asked_for_are_coded_as_by_1_0():
     mesh = copies(bumpy(5), mirrors()[:1])
     for options in (EncodeOptions(grid=12), EncodeOptions(exact=True)):
-        assert encode(mesh, replace(options, congruence=True)) == encode(mesh, replace(options, congruence=False))
-    assert [version_of(encode(mesh, EncodeOptions(congruence=both))) for both in (True, False)] == [17, 16]
+        assert encode(mesh, replace(options, congruence=True)) == encode(
+            mesh, replace(options, congruence=False)
+        )
+    assert [version_of(encode(mesh, EncodeOptions(congruence=both))) for both in (True, False)] == [
+        17,
+        16,
+    ]
 
 
 def test_a_size_is_spent_on_what_congruent_parts_save():
     mesh = copies(bumpy(6), mirrors()[:1])
     target = EncodeOptions(target=Target("size", 2200.0), contract=None)
-    less, more = (Encoder(mesh, replace(target, congruence=both)).result() for both in (False, True))
+    less, more = (
+        Encoder(mesh, replace(target, congruence=both)).result() for both in (False, True)
+    )
     assert more.size <= 2200 and more.header.congruence > 0
     assert more.comparison.theta_deg < 0.9 * less.comparison.theta_deg
 
 
-@pytest.mark.parametrize("mesh", [copies(bumpy(6), mirrors()[:1]), bumpy(9, 40, 24)], ids=["two", "one"])
+@pytest.mark.parametrize(
+    "mesh", [copies(bumpy(6), mirrors()[:1]), bumpy(9, 40, 24)], ids=["two", "one"]
+)
 def test_the_best_stream_of_a_size_looks_as_good_as_the_promise_of_that_size(mesh):
     usual = encode(mesh)
     best = encode(mesh, replace(PRESETS["none"], target=Target("size", float(len(usual)))))
@@ -138,11 +168,15 @@ def test_the_best_stream_of_a_size_looks_as_good_as_the_promise_of_that_size(mes
 
 
 def test_the_search_finds_a_turn():
-    prepared = Encoder(copies(bumpy(3), np.array([about(1, 7)])), EncodeOptions(grid=12))._input.prepared
+    prepared = Encoder(
+        copies(bumpy(3), np.array([about(1, 7)])), EncodeOptions(grid=12)
+    )._input.prepared
     positions = prepared.mesh.positions
     low, extent = positions.min(axis=0), np.ptp(positions, axis=0)
     step = float(extent.max()) / 4095
-    rows = transforms_of(prepared, Raster(tuple(low), step, tuple(np.rint(extent / step).astype(int).tolist())))
+    rows = transforms_of(
+        prepared, Raster(tuple(low), step, tuple(np.rint(extent / step).astype(int).tolist()))
+    )
     ((*turn, x, y, z, _),) = next(iter(prepared.motions.values()))
     assert len(rows) == 1 and rows[0, 0] >= 48
     images = positions @ np.reshape(turn, (3, 3)).T + (x, y, z)
@@ -199,9 +233,14 @@ def test_vertices_are_split_where_that_takes_fewer_bytes():
     side = np.arange(33) / 16.0 - 1.0
     x, y = np.tile(side, 33), np.repeat(side[::-1], 33)
     corners = np.arange(33 * 33).reshape(33, 33)
-    a, b, c, d = (part.ravel() for part in (corners[:-1, :-1], corners[1:, :-1], corners[1:, 1:], corners[:-1, 1:]))
+    a, b, c, d = (
+        part.ravel()
+        for part in (corners[:-1, :-1], corners[1:, :-1], corners[1:, 1:], corners[:-1, 1:])
+    )
     faces = np.stack([a, b, c, a, c, d], axis=1).reshape(-1, 3).astype(np.int32)
-    prepared = prepared_of(TriangleMesh(np.stack([x, y, 0.3 * np.cos(2.0 * x) * np.cos(3.0 * y)], axis=1), faces), 8)
+    prepared = prepared_of(
+        TriangleMesh(np.stack([x, y, 0.3 * np.cos(2.0 * x) * np.cos(3.0 * y)], axis=1), faces), 8
+    )
     whole = coded(prepared, 8)[1]
     split = paying(prepared, whole)
     assert whole.header.whole and split.header.transforms > 0 and not split.header.whole
@@ -251,7 +290,9 @@ def test_vertices_of_still_grids_do_not_go_to_images():
     moved = Gridded("images", frame, images=True, going=True).at(frame.first)
     still = Gridded("images, none moved", frame, images=True).at(frame.first)
     assert (still.positions == usual.positions).all() and (moved.positions != usual.positions).any()
-    assert moved.draft.size < still.draft.size < usual.draft.size and still.draft.header.transforms > 0
+    assert (
+        moved.draft.size < still.draft.size < usual.draft.size and still.draft.header.transforms > 0
+    )
 
 
 def test_steps_divide_shifts_that_repeat():
@@ -267,7 +308,9 @@ def test_steps_divide_shifts_that_repeat():
     alone = prepared_of(bumpy(13), 10)
     low = alone.mesh.positions.min(axis=0)
     held, kept = lattice(alone, low, float(np.float32(0.01)), 0.0, UNTURNED, [])
-    assert held == float(np.float32(0.01)) and (kept == low).all(), "without symmetries nothing moves"
+    assert held == float(np.float32(0.01)) and (kept == low).all(), (
+        "without symmetries nothing moves"
+    )
 
 
 def plates(at: tuple[float, ...]) -> TriangleMesh:
@@ -277,17 +320,27 @@ def plates(at: tuple[float, ...]) -> TriangleMesh:
     for number, x in enumerate(at):
         y, z = np.full(rows, 0.31 * number + 0.1234), np.linspace(0.0, 4.0, rows)
         ends = np.column_stack([np.full(rows, x), y, z])
-        middle = np.column_stack([np.full(rows, x + 0.3), y + 0.2, z]) + rng.normal(0.0, 0.03, (rows, 3))
+        middle = np.column_stack([np.full(rows, x + 0.3), y + 0.2, z]) + rng.normal(
+            0.0, 0.03, (rows, 3)
+        )
         positions.append(np.concatenate([ends, middle]))
-        first, second = np.arange(rows - 1) + 2 * rows * number, np.arange(rows - 1) + 2 * rows * number + rows
-        faces += [np.column_stack([first, second, first + 1]), np.column_stack([first + 1, second, second + 1])]
+        first, second = (
+            np.arange(rows - 1) + 2 * rows * number,
+            np.arange(rows - 1) + 2 * rows * number + rows,
+        )
+        faces += [
+            np.column_stack([first, second, first + 1]),
+            np.column_stack([first + 1, second, second + 1]),
+        ]
     return TriangleMesh(np.concatenate(positions), np.concatenate(faces).astype(np.int32))
 
 
 def test_planes_are_where_the_longest_edges_lie():
     mesh = plates((0.0, 0.777, 2.345))
     along, across, up = planes_of(mesh.positions, mesh.faces)
-    assert np.allclose(np.sort(along[:3, 0]), (0.0, 0.777, 2.345)) and np.allclose(along[:3, 1], 1.0, atol=0.02)
+    assert np.allclose(np.sort(along[:3, 0]), (0.0, 0.777, 2.345)) and np.allclose(
+        along[:3, 1], 1.0, atol=0.02
+    )
     assert np.allclose(np.sort(across[:3, 0]), 0.1234 + 0.31 * np.arange(3))
     assert np.allclose(across[:3, 1], 1.0, atol=0.02)
     assert up[:, 1].sum() < 0.2, "edges are level by chance alone"
@@ -306,4 +359,8 @@ def test_planes_come_to_lie_at_places(at: tuple[float, ...]):
 
     found, origin = lattice(prepared, low, step, 0.0, UNTURNED, planes)
     assert off(found, origin) < 0.13 < off(*lattice(prepared, low, step, 0.0, UNTURNED, []))
-    assert abs(math.log(found / step)) <= 0.016 and (origin <= low).all() and (origin > low - found).all()
+    assert (
+        abs(math.log(found / step)) <= 0.016
+        and (origin <= low).all()
+        and (origin > low - found).all()
+    )

@@ -25,7 +25,10 @@ def noisy(mesh: bsm.TriangleMesh, amount: float) -> bsm.TriangleMesh:
 
 def kept(encoder: bsm.Encoder, data: bytes) -> tuple[float, float]:
     """Farthest vertex over the diagonal, and mean angle, of what a stream decodes to."""
-    original, decoded = Original(encoder.mesh.positions, encoder.mesh.faces), bsm.decode(data).positions
+    original, decoded = (
+        Original(encoder.mesh.positions, encoder.mesh.faces),
+        bsm.decode(data).positions,
+    )
     farthest = np.linalg.norm(original.positions - decoded, axis=1).max()
     return farthest / (encoder.mesh.diagonal or 1.0), original.angle(decoded)
 
@@ -51,7 +54,9 @@ def assert_kept(mesh: bsm.TriangleMesh, options: bsm.EncodeOptions) -> bsm.Encod
 def patterned(mesh: bsm.TriangleMesh) -> bsm.TriangleMesh:
     """With normals that have nothing to do with its shape: edges are visible that are not creases."""
     normals = np.repeat(np.random.default_rng(0).normal(size=(len(mesh.faces), 3)), 3, axis=0)
-    return bsm.TriangleMesh(mesh.positions, mesh.faces, (bsm.Attribute("normal", normals, "corner", "normal"),))
+    return bsm.TriangleMesh(
+        mesh.positions, mesh.faces, (bsm.Attribute("normal", normals, "corner", "normal"),)
+    )
 
 
 @pytest.mark.parametrize("preset", ["balanced", "small"])
@@ -76,7 +81,19 @@ def test_a_look_holds_by_the_normals_that_are_sent(preset):
         bsm.TriangleMesh([(0, 0, 0), (1, 0, 0), (3, 0, 0)], [(0, 1, 2), (0, 0, 1)]),
         bsm.TriangleMesh(torus(8, 6).positions, np.repeat(np.arange(48), 3).reshape(48, 3)),
     ],
-    ids=["tetrahedron", "patch", "torus", "noise", "many", "flat", "far", "tiny", "point", "line", "dots"],
+    ids=[
+        "tetrahedron",
+        "patch",
+        "torus",
+        "noise",
+        "many",
+        "flat",
+        "far",
+        "tiny",
+        "point",
+        "line",
+        "dots",
+    ],
 )
 def test_presets_keep_what_they_promise(mesh: bsm.TriangleMesh, preset: str) -> None:
     assert_kept(mesh, bsm.PRESETS[preset])
@@ -96,8 +113,12 @@ def test_any_bounds_are_kept(seed: int, farthest: float, angle: float) -> None:
 
 
 @pytest.mark.parametrize("preset", PROMISING)
-@pytest.mark.parametrize("mesh", [torus(48, 30), noisy(torus(48, 30), 0.002)], ids=["torus", "noise"])
-def test_what_is_quick_to_decode_is_on_a_grid_and_as_good(mesh: bsm.TriangleMesh, preset: str) -> None:
+@pytest.mark.parametrize(
+    "mesh", [torus(48, 30), noisy(torus(48, 30), 0.002)], ids=["torus", "noise"]
+)
+def test_what_is_quick_to_decode_is_on_a_grid_and_as_good(
+    mesh: bsm.TriangleMesh, preset: str
+) -> None:
     header = assert_kept(mesh, replace(bsm.PRESETS[preset], effort="quick")).draft().header
     assert header.grid and header.light
 
@@ -105,7 +126,8 @@ def test_what_is_quick_to_decode_is_on_a_grid_and_as_good(mesh: bsm.TriangleMesh
 @pytest.mark.parametrize("option", [{"grid": 9}, {"grid_cell": 0.01}])
 def test_quick_grids_are_light_with_the_same_positions(option: dict[str, Any]) -> None:
     plain, light = (
-        bsm.Encoder(torus(80, 40), encode_options(effort=effort, **option)).draft() for effort in ("normal", "quick")
+        bsm.Encoder(torus(80, 40), encode_options(effort=effort, **option)).draft()
+        for effort in ("normal", "quick")
     )
     assert light.header == replace(plain.header, light=1) and not plain.header.light
     first, other = (bsm.decode(b"".join(draft.frames)) for draft in (plain, light))
@@ -128,20 +150,31 @@ def test_a_bound_in_the_unit_of_the_mesh() -> None:
 
 def test_a_bound_wider_than_a_tenth_of_the_mesh_is_refused() -> None:
     """Somebody took one unit for another."""
-    mesh = bsm.TriangleMesh(torus(40, 24).positions * 0.1, torus(40, 24).faces, metadata={"unit": "mm"})
-    with pytest.raises(bsm.OptionError, match=r"0\.05 mm is \d+% of this mesh's size \(0\.\d+ mm\): is its unit mm\?"):
+    mesh = bsm.TriangleMesh(
+        torus(40, 24).positions * 0.1, torus(40, 24).faces, metadata={"unit": "mm"}
+    )
+    with pytest.raises(
+        bsm.OptionError,
+        match=r"0\.05 mm is \d+% of this mesh's size \(0\.\d+ mm\): is its unit mm\?",
+    ):
         bsm.Encoder(mesh, bsm.EncodeOptions(contract=bsm.Contract(0.05, absolute=True))).encode()
     promise = bsm.PRESETS["balanced"].contract
-    encoder = bsm.Encoder(mesh, bsm.EncodeOptions(contract=replace(promise, farthest=0.05, absolute=True)))
+    encoder = bsm.Encoder(
+        mesh, bsm.EncodeOptions(contract=replace(promise, farthest=0.05, absolute=True))
+    )
     assert encoder.encode() == bsm.Encoder(mesh).encode() and "is its unit mm?" in encoder.notes[-1]
 
 
 def test_what_cannot_be_kept_is_refused_and_says_what_can_be_had() -> None:
-    with pytest.raises(bsm.TargetError, match=r"vertex error 1e-10 % of .* cannot be kept.* the best possible is"):
+    with pytest.raises(
+        bsm.TargetError, match=r"vertex error 1e-10 % of .* cannot be kept.* the best possible is"
+    ):
         bsm.Encoder(torus(40, 24), bsm.EncodeOptions(contract=bsm.Contract(1e-12))).encode()
 
 
-@pytest.mark.parametrize("bounds", [(0.0, 1.0), (2.0, 1.0), (float("nan"), 1.0), (0.1, 0.0), (0.1, 181.0)])
+@pytest.mark.parametrize(
+    "bounds", [(0.0, 1.0), (2.0, 1.0), (float("nan"), 1.0), (0.1, 0.0), (0.1, 181.0)]
+)
 def test_bounds_that_are_none(bounds: tuple[float, float]) -> None:
     with pytest.raises(bsm.OptionError):
         bsm.Contract(*bounds)
@@ -183,7 +216,10 @@ def test_small_parts_keep_their_shape() -> None:
     )
     for way in (bsm.EncodeOptions(block_size=300), bsm.EncodeOptions(effort="quick")):
         encoder = bsm.Encoder(mesh, replace(way, contract=bsm.Contract(0.02, 12.0, by_part=0.02)))
-        moved = np.linalg.norm(bsm.decode(encoder.encode()).positions - encoder.mesh.positions, axis=1) / mesh.diagonal
+        moved = (
+            np.linalg.norm(bsm.decode(encoder.encode()).positions - encoder.mesh.positions, axis=1)
+            / mesh.diagonal
+        )
         part = encoder.vertex_order >= len(large.positions)
         assert moved[part].max() <= 0.02 * 0.1 * (1 + 1e-9) and moved.max() <= 0.02 * (1 + 1e-9)
 
@@ -191,13 +227,16 @@ def test_small_parts_keep_their_shape() -> None:
 @pytest.mark.parametrize("preset", ["small", "balanced"])
 def test_a_label_does_not_sink_into_its_wall(preset: str) -> None:
     wall = patch(8, 8)
-    label = bsm.TriangleMesh([(0.3, 0.3, 0), (0.7, 0.3, 0), (0.7, 0.6, 0), (0.3, 0.6, 0)], [(0, 1, 2), (0, 2, 3)])
+    label = bsm.TriangleMesh(
+        [(0.3, 0.3, 0), (0.7, 0.3, 0), (0.7, 0.6, 0), (0.3, 0.6, 0)], [(0, 1, 2), (0, 2, 3)]
+    )
     low, size = wall.positions.min(axis=0), np.ptp(wall.positions, axis=0).max()
     above = low + size * (label.positions + np.array([0.0, 0.0, 0.002]))
     flat = wall.positions * (1.0, 1.0, 0.0) + low * (0.0, 0.0, 1.0)
     random = np.random.default_rng(0).normal(size=flat.shape) * (1e-3, 1e-3, 0.0)
     mesh = bsm.TriangleMesh(
-        np.concatenate([flat + random, above]), np.concatenate([wall.faces, label.faces + len(flat)])
+        np.concatenate([flat + random, above]),
+        np.concatenate([wall.faces, label.faces + len(flat)]),
     )
     encoder = bsm.Encoder(mesh, bsm.PRESETS[preset])
     decoded = bsm.decode(encoder.encode()).positions
@@ -211,7 +250,9 @@ def test_a_shell_stays_inside_another_one_without_a_finer_grid(gap: float) -> No
     around = np.arctan2(outer.positions[:, 1], outer.positions[:, 0])
     outward = outer.positions - np.column_stack([np.cos(around), np.sin(around), 0.0 * around])
     inner, n = outer.positions - gap * outer.diagonal * outward, len(outer.positions)
-    both = bsm.TriangleMesh(np.concatenate([outer.positions, inner]), np.concatenate([outer.faces, outer.faces + n]))
+    both = bsm.TriangleMesh(
+        np.concatenate([outer.positions, inner]), np.concatenate([outer.faces, outer.faces + n])
+    )
     encoder = bsm.Encoder(both)
     decoded = bsm.decode(encoder.encode()).positions[encoder.vertex_index]
     assert ((decoded[:n] - decoded[n:]) * outward).sum(axis=1).min() > 0.0
@@ -222,8 +263,13 @@ def test_a_shell_stays_inside_another_one_without_a_finer_grid(gap: float) -> No
 
 
 def test_a_bound_that_cannot_be_kept_says_what_can() -> None:
-    with pytest.raises(bsm.TargetError, match=r"vertex error 1e-10 % .* cannot be kept .* possible is vertex error "):
-        bsm.Encoder(noisy(torus(20, 12), 0.01), bsm.EncodeOptions(contract=bsm.Contract(1e-12, look=1.0))).encode()
+    with pytest.raises(
+        bsm.TargetError,
+        match=r"vertex error 1e-10 % .* cannot be kept .* possible is vertex error ",
+    ):
+        bsm.Encoder(
+            noisy(torus(20, 12), 0.01), bsm.EncodeOptions(contract=bsm.Contract(1e-12, look=1.0))
+        ).encode()
 
 
 def test_what_only_exact_positions_keep_is_kept_by_them() -> None:
@@ -238,11 +284,17 @@ def test_what_only_exact_positions_keep_is_kept_by_them() -> None:
 
 def test_a_promise_holds_beside_a_target() -> None:
     mesh, promise = noisy(torus(40, 24), 0.002), bsm.Contract(0.0005)
-    loose = bsm.Encoder(mesh, bsm.EncodeOptions(contract=promise, target=bsm.Target("theta_deg", 20.0)))
+    loose = bsm.Encoder(
+        mesh, bsm.EncodeOptions(contract=promise, target=bsm.Target("theta_deg", 20.0))
+    )
     assert kept(loose, loose.encode())[0] <= 0.0005 * (1 + 1e-9)
     assert len(loose.encode()) <= 1.01 * len(bsm.encode(mesh, bsm.EncodeOptions(contract=promise)))
-    with pytest.raises(bsm.TargetError, match=r"1000 bytes at most cannot be reached with vertex error 0\.05 %"):
-        bsm.Encoder(mesh, bsm.EncodeOptions(contract=promise, target=bsm.Target("size", 1000.0))).encode()
+    with pytest.raises(
+        bsm.TargetError, match=r"1000 bytes at most cannot be reached with vertex error 0\.05 %"
+    ):
+        bsm.Encoder(
+            mesh, bsm.EncodeOptions(contract=promise, target=bsm.Target("size", 1000.0))
+        ).encode()
     both = bsm.Encoder(mesh, bsm.EncodeOptions(contract=promise, target=bsm.Target("size", 6000.0)))
     assert len(both.encode()) <= 6000 and kept(both, both.encode())[0] <= 0.0005 * (1 + 1e-9)
 
@@ -250,7 +302,9 @@ def test_a_promise_holds_beside_a_target() -> None:
 def test_a_target_beside_the_look_takes_little_more_than_either() -> None:
     mesh, promise = knot(1500), bsm.PRESETS["balanced"].contract
     contracts = promise, bsm.Contract(0.1, visual=1e-5), replace(promise, visual=1e-5)
-    look, alone, both = (bsm.Encoder(mesh, bsm.EncodeOptions(contract=contract)) for contract in contracts)
+    look, alone, both = (
+        bsm.Encoder(mesh, bsm.EncodeOptions(contract=contract)) for contract in contracts
+    )
     sizes = [len(encoder.encode()) for encoder in (look, alone, both)]
     assert sizes[2] <= 1.15 * max(sizes[:2])
     decoded = bsm.decode(both.encode()).positions

@@ -23,7 +23,9 @@ def assert_exact(positions: np.ndarray, faces: np.ndarray) -> None:
     decoded = decode(encoder.encode())
     assert np.array_equal(bits(decoded.positions), bits(single[encoder.vertex_order]))
     kept = decode(encode(mesh, replace(LOSSLESS, keep_order=True)))
-    assert np.array_equal(bits(kept.positions), bits(single)) and np.array_equal(kept.faces, mesh.faces)
+    assert np.array_equal(bits(kept.positions), bits(single)) and np.array_equal(
+        kept.faces, mesh.faces
+    )
 
 
 @pytest.mark.parametrize("scale", [1.0, 1e-40, 1e-45, 1e-20, 1e20, 2e38])
@@ -45,7 +47,10 @@ def test_zeros_keep_their_sign_and_are_different_vertices() -> None:
     positions[:, 2] = 0.0
     positions[::2, 2] = -0.0
     assert_exact(positions, mesh.faces)
-    two = TriangleMesh(np.array([[0.0, 0, 0], [-0.0, 0, 0], [1, 0, 0], [0, 1, 0]]), np.array([[0, 2, 3], [1, 3, 2]]))
+    two = TriangleMesh(
+        np.array([[0.0, 0, 0], [-0.0, 0, 0], [1, 0, 0], [0, 1, 0]]),
+        np.array([[0, 2, 3], [1, 3, 2]]),
+    )
     assert len(decode(encode(two, LOSSLESS)).positions) == 4
 
 
@@ -55,7 +60,9 @@ def test_decimals_take_about_what_their_grid_does() -> None:
     assert_exact(decimals.positions, mesh.faces)
     on_grid = encode(decimals, EncodeOptions(grid_cell=1e-4))
     assert len(encode(decimals, LOSSLESS)) < 1.03 * len(on_grid)
-    assert len(encode(TriangleMesh(mesh.positions.astype(np.float32), mesh.faces), LOSSLESS)) > 1.3 * len(on_grid)
+    assert len(
+        encode(TriangleMesh(mesh.positions.astype(np.float32), mesh.faces), LOSSLESS)
+    ) > 1.3 * len(on_grid)
 
 
 def test_any_floats_come_back() -> None:
@@ -65,8 +72,13 @@ def test_any_floats_come_back() -> None:
     assert_exact(np.where(np.isfinite(numbers), numbers, 0), mesh.faces)
     assert_exact(np.zeros(mesh.positions.shape), mesh.faces)
     for scale in (1e-44, 1e-40, 1e-36, 2e38):
-        decoded = bsm.decode(bsm.encode((scale * mesh.positions, mesh.faces), grid=12, keep_order=True))
-        assert np.abs(decoded.positions / scale - mesh.positions).max() <= 0.51 * np.ptp(mesh.positions) / 4095
+        decoded = bsm.decode(
+            bsm.encode((scale * mesh.positions, mesh.faces), grid=12, keep_order=True)
+        )
+        assert (
+            np.abs(decoded.positions / scale - mesh.positions).max()
+            <= 0.51 * np.ptp(mesh.positions) / 4095
+        )
 
 
 def test_doubles_are_rounded_and_that_is_reported() -> None:
@@ -75,7 +87,8 @@ def test_doubles_are_rounded_and_that_is_reported() -> None:
     decoded = decode(encoder.encode())
     assert any("rounded to single precision" in note for note in encoder.notes)
     assert np.array_equal(bits(decoded.positions), bits(mesh.positions[encoder.vertex_order]))
-    assert encode(TriangleMesh(mesh.positions, np.repeat(mesh.faces[:, :1], 3, axis=1)), LOSSLESS)  # of no area
+    # Of no area.
+    assert encode(TriangleMesh(mesh.positions, np.repeat(mesh.faces[:, :1], 3, axis=1)), LOSSLESS)
     single = TriangleMesh(mesh.positions.astype(np.float32), mesh.faces)
     assert not any("precision" in note for note in Encoder(single, LOSSLESS).notes)
     with pytest.raises(bsm.BsmError, match="single precision"):
@@ -91,12 +104,15 @@ def test_attributes_are_exact_unless_something_else_is_asked() -> None:
 
 
 @pytest.mark.real
-@pytest.mark.parametrize("name", ["static/nicolo.ply", "static/bunny_34834.ply", "assets/ADIS16480.STL"])
+@pytest.mark.parametrize(
+    "name", ["static/nicolo.ply", "static/bunny_34834.ply", "assets/ADIS16480.STL"]
+)
 def test_real_meshes_come_back_below_draco(meshes, name) -> None:
     mesh = read_mesh(meshes / name).mesh
     assert_exact(mesh.positions, mesh.faces)
     if "nicolo" in name:
-        assert len(encode(mesh, LOSSLESS)) < 0.6 * 182_842  # Draco's, positions as they are, level 10
+        # Draco's, positions as they are, level 10.
+        assert len(encode(mesh, LOSSLESS)) < 0.6 * 182_842
 
 
 @pytest.mark.parametrize("keep", [False, True])
@@ -104,4 +120,6 @@ def test_what_rounding_to_single_precision_moves_is_counted(keep: bool) -> None:
     mesh = TriangleMesh(torus(12, 9).positions + 5, torus(12, 9).faces)
     found = Encoder(mesh, replace(LOSSLESS, keep_order=keep)).result().comparison
     moved = np.linalg.norm(mesh.positions - mesh.positions.astype(np.float32), axis=1).max()
-    assert moved > 1e-7 and found.max_error_relative == pytest.approx(moved / mesh.diagonal, rel=0.1)
+    assert moved > 1e-7 and found.max_error_relative == pytest.approx(
+        moved / mesh.diagonal, rel=0.1
+    )

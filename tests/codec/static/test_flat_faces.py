@@ -8,7 +8,12 @@ from bsm.codec.static.choice.bounds import FLAT, count_flat
 
 def direct(positions, faces):
     corners = positions[faces]
-    areas = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1) / 2.0
+    areas = (
+        np.linalg.norm(
+            np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1
+        )
+        / 2.0
+    )
     sides = np.square(corners - np.roll(corners, 1, axis=1)).sum(axis=2).max(axis=1)
     return int(np.count_nonzero(areas <= FLAT * sides))
 

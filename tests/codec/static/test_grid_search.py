@@ -23,7 +23,12 @@ from tests.shapes import curved, grid_faces, patch, together
 def box(cells: int, lines: int, seed: int = 0) -> TriangleMesh:
     """The surface of a cube, cut by lines at whole multiples of a cell, more of them than fit a coarser grid."""
     random = np.random.default_rng(seed)
-    at = np.sort(np.concatenate([[0, cells], 1 + random.choice(cells - 1, lines - 2, replace=False)])) / cells
+    at = (
+        np.sort(
+            np.concatenate([[0, cells], 1 + random.choice(cells - 1, lines - 2, replace=False)])
+        )
+        / cells
+    )
     u, v = (axis.ravel() for axis in np.meshgrid(at, at, indexing="ij"))
     faces, count = grid_faces(lines, lines), lines * lines
     sides = [np.stack([u, v, np.full_like(u, side)], -1) for side in (0.0, 1.0)]
@@ -39,7 +44,11 @@ def test_the_grid_that_a_model_was_made_on_is_found(preset: str) -> None:
     assert draft.header.grid
     assert draft.size <= 1.2 * len(encode(mesh, EncodeOptions(grid=8)))
     flat = patch(29, 29)
-    about = np.random.default_rng(1).uniform(-2e-4, 2e-4, flat.positions.shape) + flat.positions / (1, 1.3, 1)
+    about = np.random.default_rng(1).uniform(-2e-4, 2e-4, flat.positions.shape) + flat.positions / (
+        1,
+        1.3,
+        1,
+    )
     assert len(encode(replace(flat, positions=about * (1, 1, 0)), PRESETS[preset])) < 100
 
 
@@ -95,7 +104,9 @@ def lost(mesh: TriangleMesh) -> int:
     return int(np.count_nonzero(areas <= 1e-9 * np.square(sides).sum(axis=2).max(axis=0)))
 
 
-@pytest.mark.parametrize("options", [EncodeOptions(), EncodeOptions(effort="quick"), PRESETS["small"]])
+@pytest.mark.parametrize(
+    "options", [EncodeOptions(), EncodeOptions(effort="quick"), PRESETS["small"]]
+)
 def test_faces_keep_their_areas(options: EncodeOptions) -> None:
     mesh = slivers(40)
     cells = (mesh.positions - mesh.positions.min(axis=0)) * 60.0
@@ -103,7 +114,8 @@ def test_faces_keep_their_areas(options: EncodeOptions) -> None:
     decoded = decode(encode(mesh, options))
     assert lost(decoded) == 0
     assert len(np.unique(decoded.positions, axis=0)) == len(mesh.positions)
-    most = folded_edges(mesh.positions, mesh.faces) + 1 + 2  # two come over 90 degrees, but not over 100
+    # Two come over 90 degrees, but not over 100.
+    most = folded_edges(mesh.positions, mesh.faces) + 1 + 2
     assert folded_edges(decoded.positions, decoded.faces) <= most
 
 
@@ -135,27 +147,43 @@ def fan(positions: np.ndarray) -> tuple[Field, np.ndarray, np.ndarray]:
     """A begun field on a fan of triangles around the first vertex, rounded places, and what is wanted."""
     count = len(positions)
     around = np.arange(1, count)
-    faces = np.column_stack([np.zeros(count - 1, np.int64), around, np.roll(around, -1)]).astype(np.int32)
+    faces = np.column_stack([np.zeros(count - 1, np.int64), around, np.roll(around, -1)]).astype(
+        np.int32
+    )
     field = grid_field(faces, (9, 9, 9), np.zeros((count, 3), np.int32))
-    return field, np.rint(positions).astype(np.int32), np.column_stack([positions, np.full(count, 4.0)])
+    return (
+        field,
+        np.rint(positions).astype(np.int32),
+        np.column_stack([positions, np.full(count, 4.0)]),
+    )
 
 
 def test_the_nearest_cell_without_faults_is_taken() -> None:
-    positions = np.array([[4.4, 4.2, 0.0], [0.0, 4.0, 0.0], [4.0, 0.0, 0.0], [8.0, 4.0, 0.0], [4.4, 4.45, 0.0]])
+    positions = np.array(
+        [[4.4, 4.2, 0.0], [0.0, 4.0, 0.0], [4.0, 0.0, 0.0], [8.0, 4.0, 0.0], [4.4, 4.45, 0.0]]
+    )
     field, places, wanted = fan(positions)
-    assert (places[0] == [4, 4, 0]).all() and (places[4] == [4, 4, 0]).all(), "two faces have no area there"
+    assert (places[0] == [4, 4, 0]).all() and (places[4] == [4, 4, 0]).all(), (
+        "two faces have no area there"
+    )
     mended = field.mended(places, np.array([9, 9, 9], np.int32), wanted)
     a, b, c = (mended[np.array(corner)] for corner in ((0, 0, 0, 0), (1, 2, 3, 4), (2, 3, 4, 1)))
     assert (np.cross(b - a, c - a) != 0).any(axis=1).all()
     assert np.abs(mended - places).sum() == 1, "one vertex moved by a cell"
     tight = np.column_stack([positions, np.square(np.abs(positions - places)).sum(axis=1)])
-    assert (field.mended(places, np.array([9, 9, 9], np.int32), tight) == places).all(), "none may come farther"
+    assert (field.mended(places, np.array([9, 9, 9], np.int32), tight) == places).all(), (
+        "none may come farther"
+    )
     flat = np.column_stack([places.astype(np.float64), np.full(5, 4.0)])
-    assert (field.mended(places, np.array([9, 9, 9], np.int32), flat) == places).all(), "there was no area before"
+    assert (field.mended(places, np.array([9, 9, 9], np.int32), flat) == places).all(), (
+        "there was no area before"
+    )
 
 
 @pytest.mark.real
-@pytest.mark.parametrize("name", ["assets/robot_link5.obj", "assets/cloth.obj", "assets/stirrer.obj"])
+@pytest.mark.parametrize(
+    "name", ["assets/robot_link5.obj", "assets/cloth.obj", "assets/stirrer.obj"]
+)
 def test_few_edges_are_folded_over(meshes: Path, name: str) -> None:
     mesh = join(read_mesh(meshes / name).mesh.bare, keep=False).mesh
     decoded = in_order_of(mesh, decode(encode(mesh, EncodeOptions())))
@@ -165,9 +193,20 @@ def test_few_edges_are_folded_over(meshes: Path, name: str) -> None:
 
 @pytest.mark.parametrize(
     ("before", "after", "folded"),
-    [(89, 95, 0), (95, 92, 0), (89, 105, 1), (0, 175, 1), (95, 80, 0), (105, 115, 0), (105, 125, 1), (125, 155, 1)],
+    [
+        (89, 95, 0),
+        (95, 92, 0),
+        (89, 105, 1),
+        (0, 175, 1),
+        (95, 80, 0),
+        (105, 115, 0),
+        (105, 125, 1),
+        (125, 155, 1),
+    ],
 )
-def test_folds_are_counted_from_100_120_and_150_degrees_on(before: float, after: float, folded: int) -> None:
+def test_folds_are_counted_from_100_120_and_150_degrees_on(
+    before: float, after: float, folded: int
+) -> None:
     faces = np.array([[0, 1, 2], [0, 2, 3]], np.int32)
 
     def bent(degrees: float) -> np.ndarray:
@@ -185,7 +224,10 @@ FOLDED = np.cos(np.radians([100, 120, 150]))
 
 def folds(mesh: TriangleMesh) -> np.ndarray:
     """Count the edges between two faces that are folded by more than 100, 120 and 150 degrees."""
-    ends = np.sort(np.concatenate([mesh.faces[:, [0, 1]], mesh.faces[:, [1, 2]], mesh.faces[:, [2, 0]]]), axis=1)
+    ends = np.sort(
+        np.concatenate([mesh.faces[:, [0, 1]], mesh.faces[:, [1, 2]], mesh.faces[:, [2, 0]]]),
+        axis=1,
+    )
     owners = np.tile(np.arange(len(mesh.faces)), 3)
     order = np.lexsort(ends.T)
     starts = np.flatnonzero(np.diff(ends[order], axis=0, prepend=-1).any(axis=1))

@@ -47,13 +47,17 @@ def test_faces_that_lose_their_area_are_left_out_unless_none_would_be_left() -> 
 
 def test_bodies_that_touch_stay_bodies_unless_they_share_a_vertex() -> None:
     four, two = boxes(*np.ndindex(1, 2, 2)), soup(boxes((0, 0, 0), (1, 1, 0)))
-    mixed, apart = (TriangleMesh(m.positions, np.random.default_rng(1).permutation(m.faces)) for m in (four, two))
+    mixed, apart = (
+        TriangleMesh(m.positions, np.random.default_rng(1).permutation(m.faces))
+        for m in (four, two)
+    )
     assert len(join(apart, keep=False).mesh.positions) == 16
     flap = TriangleMesh([(0, 0, 0), (1, 0, 0), (0, -1, -1)], [(0, 1, 2)])
     for mesh in (four, mixed, together(four, flap), soup(four), together(soup(four), patch(2, 2))):
         faces = join(mesh, keep=False).mesh.faces[:48]
         assert faces.max() == 31 and (edges_of(faces)[2] == 2).all()
-    sharing = TriangleMesh(four.positions, np.where(four.faces == 12, 5, four.faces))  # at one place
+    # At one place.
+    sharing = TriangleMesh(four.positions, np.where(four.faces == 12, 5, four.faces))
     assert len(join(sharing, keep=False).mesh.positions) == 12 + 2 * 8
 
 

@@ -40,7 +40,8 @@ def broken(data: bytes, kind: FrameType, which: int) -> bytes:
 
 
 @pytest.mark.parametrize(
-    "data", [REFINED, GRID, bsm.encode(soup(torus(7, 6)), bsm.EncodeOptions(grid=8, keep_order=True))]
+    "data",
+    [REFINED, GRID, bsm.encode(soup(torus(7, 6)), bsm.EncodeOptions(grid=8, keep_order=True))],
 )
 def test_events_add_up_to_the_mesh(data: bytes) -> None:
     whole, pieces = bsm.decode(data), shown(events_of(data))
@@ -51,7 +52,9 @@ def test_events_add_up_to_the_mesh(data: bytes) -> None:
 def test_the_base_comes_first() -> None:
     events = events_of(REFINED)
     kinds = [type(event) for event in events]
-    assert kinds.index(bsm.RefinementEvent) > max(i for i, kind in enumerate(kinds) if kind is bsm.BlockEvent)
+    assert kinds.index(bsm.RefinementEvent) > max(
+        i for i, kind in enumerate(kinds) if kind is bsm.BlockEvent
+    )
     refinements = [event for event in events if isinstance(event, bsm.RefinementEvent)]
     assert [(event.layer, len(event.vertices)) for event in refinements] == [(1, 50), (1, 120)]
     assert all(event.layer == 0 for event in events if isinstance(event, bsm.BlockEvent))
@@ -102,7 +105,9 @@ def test_a_lost_block_leaves_what_is_far_from_it_refined() -> None:
     refinement = next(event for event in events if isinstance(event, bsm.RefinementEvent))
     assert 0 < len(refinement.vertices) < 960
     whole = bsm.decode(data).positions
-    assert np.abs(refinement.positions - whole[refinement.vertices]).max() < 0.05 * np.abs(whole).max()
+    assert (
+        np.abs(refinement.positions - whole[refinement.vertices]).max() < 0.05 * np.abs(whole).max()
+    )
 
 
 def test_a_lost_chunk_of_a_grid_costs_those_behind_it() -> None:

@@ -11,11 +11,19 @@ KEY_INTERVAL = 4
 
 
 def stream(**options):
-    return encode(torus(48, 32), EncodeOptions(**{**SMALL, "key_interval": KEY_INTERVAL, **options}))
+    return encode(
+        torus(48, 32), EncodeOptions(**{**SMALL, "key_interval": KEY_INTERVAL, **options})
+    )
 
 
 def lost_blocks(events):
-    return sorted({event.block for event in events if isinstance(event, LossEvent) and event.block is not None})
+    return sorted(
+        {
+            event.block
+            for event in events
+            if isinstance(event, LossEvent) and event.block is not None
+        }
+    )
 
 
 @pytest.mark.parametrize("how", ["removed", "changed"])

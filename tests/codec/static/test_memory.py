@@ -15,11 +15,15 @@ SEARCHED = ("Measures", "Shaper", "LookMetric", "Canvas", "Gallery", "Refinement
 
 
 def alive(names: tuple[str, ...]) -> list[str]:
-    return sorted(type(thing).__name__ for thing in gc.get_objects() if type(thing).__name__ in names)
+    return sorted(
+        type(thing).__name__ for thing in gc.get_objects() if type(thing).__name__ in names
+    )
 
 
 @pytest.mark.parametrize("effort", ["normal", "quick"])
-def test_nothing_of_the_search_lies_beside_the_checking_decoder(monkeypatch: pytest.MonkeyPatch, effort: Any) -> None:
+def test_nothing_of_the_search_lies_beside_the_checking_decoder(
+    monkeypatch: pytest.MonkeyPatch, effort: Any
+) -> None:
     held: list[str] = []
     verify = encoder.verify
 
@@ -42,7 +46,9 @@ def test_nothing_of_the_search_lies_beside_the_checking_decoder(monkeypatch: pyt
 def test_meshes_share_arrays_that_nobody_can_write_to() -> None:
     mesh = torus(8, 12)
     other = bsm.TriangleMesh(mesh.positions, mesh.faces)
-    assert np.shares_memory(mesh.positions, other.positions) and np.shares_memory(mesh.faces, other.faces)
+    assert np.shares_memory(mesh.positions, other.positions) and np.shares_memory(
+        mesh.faces, other.faces
+    )
     for array in (mesh.positions, mesh.faces):
         with pytest.raises(ValueError, match="WRITEABLE"):
             array.setflags(write=True)

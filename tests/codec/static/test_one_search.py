@@ -23,7 +23,9 @@ def bumpy() -> TriangleMesh:
 
 @pytest.mark.parametrize(("bound", "binding"), [(0.0002, "vertex error"), (0.01, "look")])
 def test_the_encoder_says_what_binds(bound: float, binding: str) -> None:
-    encoder = Encoder(torus(), EncodeOptions(contract=Contract(bound, look=1.0), threads=1, congruence=False))
+    encoder = Encoder(
+        torus(), EncodeOptions(contract=Contract(bound, look=1.0), threads=1, congruence=False)
+    )
     encoder.encode()
     assert encoder.binding == binding
 

@@ -33,8 +33,11 @@ def inspected(**options):
 def test_a_preset_gives_what_is_not_given_itself():
     assert EncodeOptions(preset="paper") == PRESETS["paper"]
     assert EncodeOptions(preset="none") == PRESETS["none"]
-    assert EncodeOptions(preset="paper", key_interval=8).key_interval == 8  # the default of other presets
-    assert EncodeOptions(preset="paper", keep=0.1) == paper_options(keep=0.1, threads=None, limits="default")
+    # The default of other presets.
+    assert EncodeOptions(preset="paper", key_interval=8).key_interval == 8
+    assert EncodeOptions(preset="paper", keep=0.1) == paper_options(
+        keep=0.1, threads=None, limits="default"
+    )
     assert EncodeOptions(preset="paper", paper=Paper(power=3)).paper == Paper(power=3)
     options = EncodeOptions(preset="paper", block_size=300)
     assert replace(options, threads=2) == EncodeOptions(preset="paper", block_size=300, threads=2)
@@ -52,7 +55,13 @@ def test_the_stream_is_as_the_paper_has_it():
     parts = Encoder(MESH, EncodeOptions(preset="paper", **SMALL))._input.prepared.partition
     assert header.block_size == round(1.15 * parts.sizes.max())
     assert not info_of(bsm.encode(MESH, step=0.01)).is_paper
-    others = {"key_interval": 4}, {"key_seed": "cosines"}, {"power": 9}, {"iterations": 3}, {"partition": "derived"}
+    others = (
+        {"key_interval": 4},
+        {"key_seed": "cosines"},
+        {"power": 9},
+        {"iterations": 3},
+        {"partition": "derived"},
+    )
     for other in (*others, {"overlap": 1.05}, {"bits": 10}, {"shift": 0.1}):
         assert not inspected(**other).is_paper
     assert inspected(keep=0.1).is_paper and inspected(block_size=300).is_paper
@@ -65,20 +74,27 @@ def test_sizes_follow_the_error_or_are_fixed():
     assert set(inspected(coefficients=20).coefficients) == {20}
     info = inspected(keep=0.1)
     assert set(info.coefficients) == {round(0.1 * info.header.block_size)}
-    assert max(inspected(keep=0.3, doi=(0.4, 0.5)).coefficients) <= round(0.3 * info.header.block_size)
+    assert max(inspected(keep=0.3, doi=(0.4, 0.5)).coefficients) <= round(
+        0.3 * info.header.block_size
+    )
 
 
 def test_each_block_has_the_least_size_for_its_error():
     """Whatever number of columns was tried, and however many the first block began with; in mean edge lengths."""
     encoder = Encoder(MESH, EncodeOptions(preset="paper", **SMALL))
     prepared = encoder._input.prepared
-    highest = PRESETS["paper"].paper.doi[1] * mean_edge_length(prepared.positions, prepared.mesh.faces)
+    highest = PRESETS["paper"].paper.doi[1] * mean_edge_length(
+        prepared.positions, prepared.mesh.faces
+    )
     blocks, found = prepared.blocks, []
     original = block_coder.offer
 
     def recorded(chain, residual, *rest):
         dictionary, coefficients = original(chain, residual, *rest)
-        found.append(np.linalg.norm(residual - dictionary.astype(float) @ coefficients) / len(residual) ** 0.5)
+        found.append(
+            np.linalg.norm(residual - dictionary.astype(float) @ coefficients)
+            / len(residual) ** 0.5
+        )
         return dictionary, coefficients
 
     with pytest.MonkeyPatch.context() as patched:
@@ -104,7 +120,9 @@ def test_a_mesh_smaller_than_a_block_is_one_block_and_a_note_says_so():
     assert "no orthogonal iterations follow" in encoder.notes[-1]
     assert FrameType.BLOCK in [kind for kind, _ in frames_of(data)]
     assert bsm.compare(patch(6, 7), data).max_error_relative < 0.07
-    assert not any("one block" in note for note in Encoder(patch(6, 7), EncodeOptions(step=0.01)).notes)
+    assert not any(
+        "one block" in note for note in Encoder(patch(6, 7), EncodeOptions(step=0.01)).notes
+    )
 
 
 def test_without_metis_our_rule_cuts_and_a_note_says_so(tmp_path):
@@ -113,14 +131,18 @@ def test_without_metis_our_rule_cuts_and_a_note_says_so(tmp_path):
     without = "import sys; sys.modules['pymetis'] = None; from bsm.cli import main; sys.exit(main(sys.argv[1:]))"
     done = python("-c", without, *words, text=True)
     assert done.returncode == 0, done.stderr
-    assert re.search("METIS .* is not installed: BSM's own rule cuts the mesh into parts", done.stderr)
+    assert re.search(
+        "METIS .* is not installed: BSM's own rule cuts the mesh into parts", done.stderr
+    )
     data = (tmp_path / "a.bsm").read_bytes()
     assert len(bsm.decode(data).faces) == len(MESH.faces)
     info = info_of(data)
     assert info.sizes["partition"] == 0 and not info.is_paper
 
 
-@pytest.mark.parametrize("more", [{"look": 1.0}, {"max_error": 0.01}, {"grid": 12}, {"grid_cell": 0.1}])
+@pytest.mark.parametrize(
+    "more", [{"look": 1.0}, {"max_error": 0.01}, {"grid": 12}, {"grid_cell": 0.1}]
+)
 def test_it_promises_nothing_and_has_no_grid(more):
     with pytest.raises(OptionError, match=f"preset paper fixes the coding .* {next(iter(more))}"):
         bsm.encode(MESH, preset="paper", **more)
@@ -140,13 +162,18 @@ def test_coefficients_are_as_many_as_decoders_grant(monkeypatch):
     monkeypatch.setitem(NAMED_LIMITS, "default", lambda: granted)
     encoder = Encoder(MESH, EncodeOptions(preset="paper", doi=(1e-7, 1e-6), **SMALL))
     info = info_of(data := encoder.encode())
-    assert max(info.coefficients) < info.header.block_size / 2 and "eps_h is exceeded" in encoder.losses[-1]
+    assert (
+        max(info.coefficients) < info.header.block_size / 2
+        and "eps_h is exceeded" in encoder.losses[-1]
+    )
     assert bsm.decode(data, limits=granted).faces.shape == MESH.faces.shape
     with pytest.raises(OptionError, match="decoders with default limits would refuse this stream"):
         bsm.encode(MESH, preset="paper", keep=0.5, **SMALL)
 
 
-@pytest.mark.parametrize("target", [{"nmsve_db": -42.0}, {"theta": 6.0}, {"bpv": 8.0}, {"size": 2500}])
+@pytest.mark.parametrize(
+    "target", [{"nmsve_db": -42.0}, {"theta": 6.0}, {"bpv": 8.0}, {"size": 2500}]
+)
 def test_a_quality_or_a_rate_is_reached_by_eps(target):
     encoder = Encoder(MESH, encode_options(preset="paper", **target, **SMALL))
     found = encoder.result()
@@ -155,12 +182,15 @@ def test_a_quality_or_a_rate_is_reached_by_eps(target):
 
 
 def test_a_target_and_a_given_c_exclude_each_other():
-    with pytest.raises(OptionError, match="a target is reached by doi; it excludes keep and coefficients"):
+    with pytest.raises(
+        OptionError, match="a target is reached by doi; it excludes keep and coefficients"
+    ):
         bsm.encode(MESH, preset="paper", keep=0.1, theta=3.0)
 
 
 SHEET = TriangleMesh(
-    np.array([(i // 2, i % 2, 0.1 * (i % 3)) for i in range(60)]), np.arange(58)[:, None] + np.arange(3)
+    np.array([(i // 2, i % 2, 0.1 * (i % 3)) for i in range(60)]),
+    np.arange(58)[:, None] + np.arange(3),
 )
 ODD = {
     "a point": TriangleMesh(np.zeros((1, 3)), np.zeros((1, 3), np.int32)),

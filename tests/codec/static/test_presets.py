@@ -8,7 +8,17 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bsm import PRESETS, BsmError, EncodeOptions, Encoder, MeshError, TriangleMesh, decode, look, read_mesh
+from bsm import (
+    PRESETS,
+    BsmError,
+    EncodeOptions,
+    Encoder,
+    MeshError,
+    TriangleMesh,
+    decode,
+    look,
+    read_mesh,
+)
 from bsm.codec.geometry.metrics import Reference
 from bsm.codec.static.choice.grids import spacing_of
 from bsm.codec.static.options import BALANCED, changed
@@ -16,9 +26,12 @@ from bsm.evaluation.curve import EXACT_BASES, Spectral, measure, paper_options
 from tests.conftest import mesh_folder
 from tests.shapes import in_rows, patch, together, torus
 
-PROMISING = {name: options.promise for name, options in PRESETS.items() if options.promise is not None}
+PROMISING = {
+    name: options.promise for name, options in PRESETS.items() if options.promise is not None
+}
 ORDER = tuple(PROMISING)  # from the coarsest on
-FEW, JUMPS = 16, 1.09  # bytes, since grids of few cells are not searched; and ratios of sizes at neighboring steps
+# Bytes, since grids of few cells are not searched; and ratios of sizes at neighboring steps.
+FEW, JUMPS = 16, 1.09
 ROOMS, TOO_LARGE = ("assets", "hostile", "static"), "static/dragon_437645.ply"
 
 
@@ -27,7 +40,10 @@ def encoded(mesh: TriangleMesh, preset: str) -> tuple[int, float]:
     encoder, contract = Encoder(mesh, replace(PRESETS[preset], threads=1)), PRESETS[preset].contract
     data, coded = encoder.encode(), encoder.mesh
     decoded = decode(data, threads=1).positions
-    assert np.linalg.norm(decoded - coded.positions, axis=1).max() <= (contract.farthest + 1e-9) * coded.diagonal
+    assert (
+        np.linalg.norm(decoded - coded.positions, axis=1).max()
+        <= (contract.farthest + 1e-9) * coded.diagonal
+    )
     try:
         seen = look(coded, replace(coded, positions=decoded)).distance
     except MeshError:  # nothing of it can be seen
@@ -46,7 +62,8 @@ def outdone(mesh: TriangleMesh) -> list[tuple[str, str, int, int]]:
     found = []
     for name, contract in PROMISING.items():
         for other, draft in drafts.items():
-            if draft.size >= 0.98 * drafts[name].size:  # steps next to each other differ by as much by chance
+            # Steps next to each other differ by as much by chance.
+            if draft.size >= 0.98 * drafts[name].size:
                 continue
             used = (index[other] >= 0)[:, None]
             decoded = np.where(used, draft.decoded[index[other]], mesh.positions)
@@ -75,7 +92,11 @@ def test_rows_that_are_turned_or_irregular_are_found_as_they_are() -> None:
     step = float(np.diff(np.unique(mesh.positions[:, 0])).mean())
     assert spacing_of(mesh.positions, mesh.faces) == pytest.approx(step)
     assert spacing_of(mesh.positions * (1.0, 1.5, 1.0), mesh.faces) == pytest.approx(step / 2.0)
-    moved = mesh.positions + np.random.default_rng(7).uniform(-0.3, 0.3, mesh.positions.shape) * (0.0, step, step)
+    moved = mesh.positions + np.random.default_rng(7).uniform(-0.3, 0.3, mesh.positions.shape) * (
+        0.0,
+        step,
+        step,
+    )
     assert spacing_of(moved, mesh.faces) == pytest.approx(step)
     round_about = torus(40, 24)
     assert spacing_of(round_about.positions, round_about.faces) == 0.0
@@ -84,7 +105,10 @@ def test_rows_that_are_turned_or_irregular_are_found_as_they_are() -> None:
 
 def sizes(mesh: TriangleMesh, effort: str) -> dict[str, int]:
     """Bytes of each preset."""
-    return {name: Encoder(mesh, replace(PRESETS[name], effort=effort, threads=1)).draft().size for name in ORDER}
+    return {
+        name: Encoder(mesh, replace(PRESETS[name], effort=effort, threads=1)).draft().size
+        for name in ORDER
+    }
 
 
 def test_the_best_effort_is_smaller_than_all_stricter_presets() -> None:
@@ -97,9 +121,14 @@ def test_the_best_effort_is_smaller_than_all_stricter_presets() -> None:
 @pytest.mark.parametrize("size", [(12, 8), (13, 11)])
 def test_the_best_effort_is_smaller_than_nearby_looks(size: tuple[int, int]) -> None:
     one = torus(*size)
-    mesh = together(one, TriangleMesh(one.positions * (1.0, 1.0, -1.0) + (3.1, 0.123, 0.2), one.faces[:, ::-1]))
+    mesh = together(
+        one, TriangleMesh(one.positions * (1.0, 1.0, -1.0) + (3.1, 0.123, 0.2), one.faces[:, ::-1])
+    )
     nearby = [replace(BALANCED, look=look) for look in (1.0, 0.999, 0.98, 0.95)]
-    usual = [Encoder(mesh, EncodeOptions(contract=contract, threads=1)).draft().size for contract in nearby]
+    usual = [
+        Encoder(mesh, EncodeOptions(contract=contract, threads=1)).draft().size
+        for contract in nearby
+    ]
     assert Encoder(mesh, EncodeOptions(effort="best", threads=1)).draft().size <= min(usual)
 
 
@@ -118,8 +147,12 @@ def shared(folder: Path | None) -> list[str]:
 
 
 @pytest.mark.real
-@pytest.mark.parametrize("name", shared(mesh_folder()) or [pytest.param("", marks=pytest.mark.skip("no real meshes"))])
-def test_presets_keep_their_promises_and_finer_ones_are_no_smaller_and_look_no_worse(name: str, meshes: Path) -> None:
+@pytest.mark.parametrize(
+    "name", shared(mesh_folder()) or [pytest.param("", marks=pytest.mark.skip("no real meshes"))]
+)
+def test_presets_keep_their_promises_and_finer_ones_are_no_smaller_and_look_no_worse(
+    name: str, meshes: Path
+) -> None:
     try:
         mesh = read_mesh(str(meshes / name)).mesh.bare
         found = [encoded(mesh, preset) for preset in ORDER]
@@ -136,7 +169,11 @@ def test_presets_keep_their_promises_and_finer_ones_are_no_smaller_and_look_no_w
 def test_only_the_mode_of_the_paper_has_overlap_unless_it_is_asked_for():
     assert EncodeOptions().growth == 1.0
     assert changed(EncodeOptions(), bits=12).growth == 1.15
-    assert changed(EncodeOptions(overlap=1.0), bits=12).growth == EncodeOptions(overlap=1.0).growth == 1.0
+    assert (
+        changed(EncodeOptions(overlap=1.0), bits=12).growth
+        == EncodeOptions(overlap=1.0).growth
+        == 1.0
+    )
 
 
 @pytest.mark.parametrize(("power", "most"), [(1, 1.4), (2, 0.8)])
@@ -145,7 +182,9 @@ def test_orthogonal_iterations_are_near_the_exact_basis(power, most):
     reference = Reference(mesh.positions, mesh.faces)
 
     def nmsve_db(**how):
-        return measure(Spectral(paper_options(block_size=300, keep=0.1, **how)), mesh, reference)["nmsve_db"]
+        return measure(Spectral(paper_options(block_size=300, keep=0.1, **how)), mesh, reference)[
+            "nmsve_db"
+        ]
 
     exact, ours = nmsve_db(**EXACT_BASES), nmsve_db(power=power)
     assert exact <= ours <= exact + most

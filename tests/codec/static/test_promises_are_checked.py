@@ -28,7 +28,9 @@ def shaded(mesh: TriangleMesh, zero: int = 0) -> TriangleMesh:
     normals[:, :2] = 0.3 * np.sin(9.0 * mesh.positions[:, :2])
     normals /= np.linalg.norm(normals, axis=1, keepdims=True)
     normals[:zero] = 0.0
-    return replace(mesh, attributes=(Attribute("normal", normals.astype(np.float32), "vertex", "normal"),))
+    return replace(
+        mesh, attributes=(Attribute("normal", normals.astype(np.float32), "vertex", "normal"),)
+    )
 
 
 def colored(mesh: TriangleMesh) -> TriangleMesh:
@@ -40,7 +42,9 @@ def rounded(given: Search, *_: object) -> object:
     return grids.rounded(given.prepared, COARSE)
 
 
-def the_coarsest_step(attempt: Callable[[float], object], target: Target, first: float, *_: object) -> object:
+def the_coarsest_step(
+    attempt: Callable[[float], object], target: Target, first: float, *_: object
+) -> object:
     return attempt(first / 10.0 if target.shrinks_with_step else first * 10.0)
 
 
@@ -63,7 +67,13 @@ BROKEN = {
         "search_step",
         the_coarsest_step,
     ),
-    "a size": (MESH, {"target": Target("size", 100), "coefficients": 30}, encoder, "search_step", the_coarsest_step),
+    "a size": (
+        MESH,
+        {"target": Target("size", 100), "coefficients": 30},
+        encoder,
+        "search_step",
+        the_coarsest_step,
+    ),
 }
 
 
@@ -76,7 +86,9 @@ def test_a_broken_search_is_found_out(name: str, monkeypatch: pytest.MonkeyPatch
     assert exit_of(caught.value).code == 10
 
 
-def test_the_smallest_stream_stands_for_a_broken_best_one_of_a_size(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_smallest_stream_stands_for_a_broken_best_one_of_a_size(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
     monkeypatch.setattr(Search, "best", rounded)
     options = EncodeOptions(threads=1, target=Target("size", 2000))
     data = encode(MESH, options)
@@ -109,7 +121,9 @@ def test_a_draft_is_judged_by_what_is_decoded(tmp_path: Path) -> None:
 
 def test_places_in_a_texture_that_repeats_are_kept_although_pictures_do_not_show_them() -> None:
     places = 10.0 * MESH.positions[:, :2] / np.ptp(MESH.positions[:, :2]) * 12
-    mesh = replace(MESH, attributes=(Attribute("uv", places.astype(np.float32), "vertex", "texcoord"),))
+    mesh = replace(
+        MESH, attributes=(Attribute("uv", places.astype(np.float32), "vertex", "texcoord"),)
+    )
     found = bsm.decode(bsm.encode(mesh, keep_order=True, threads=1)).attributes[0].values
     assert np.abs(found - places).max() < 1.0 / 128.0
 
@@ -123,5 +137,9 @@ def test_a_quality_of_normals_that_breaks_the_look_is_refused(quality: str) -> N
 @pytest.mark.parametrize("quality", ["0.005", "0.5%", "10bits", "exact"])
 def test_normals_of_no_length_keep_none(quality: str) -> None:
     given = shaded(MESH, 30)
-    found = bsm.decode(encode(given, EncodeOptions(attributes=(("normal", quality),)))).attributes[0].values
+    found = (
+        bsm.decode(encode(given, EncodeOptions(attributes=(("normal", quality),))))
+        .attributes[0]
+        .values
+    )
     assert (np.linalg.norm(found, axis=1) == 0.0).sum() == 30

@@ -14,7 +14,11 @@ SMALL = {"block_size": 120, "keep": 0.3, "step": 0.002}
 def round_trip(mesh, **options):
     encoder = bsm.Encoder(mesh, encode_options(**options))
     decoded = bsm.decode(encoder.encode())
-    return encoder, decoded, compare(mesh.positions[encoder.vertex_order], decoded.positions, decoded.faces)
+    return (
+        encoder,
+        decoded,
+        compare(mesh.positions[encoder.vertex_order], decoded.positions, decoded.faces),
+    )
 
 
 @pytest.mark.parametrize(
@@ -64,18 +68,32 @@ def test_a_step_finer_than_levels_can_hold_is_refused():
         tetrahedron(),
         bsm.TriangleMesh(np.eye(3), np.array([[0, 1, 2]])),
         bsm.TriangleMesh(np.zeros((3, 3)), np.array([[0, 1, 2]])),
-        bsm.TriangleMesh(np.eye(3), np.array([[0, 1, 2], [0, 1, 2], [2, 1, 0], [1, 1, 2], [2, 2, 2]])),
+        bsm.TriangleMesh(
+            np.eye(3), np.array([[0, 1, 2], [0, 1, 2], [2, 1, 0], [1, 1, 2], [2, 2, 2]])
+        ),
         together(*[tetrahedron()] * 40),
         together(torus(12, 8), tetrahedron(), patch(4, 4)),
         bsm.TriangleMesh(patch(9, 9).positions + 1e7, patch(9, 9).faces),
         bsm.TriangleMesh(patch(9, 9).positions * 1e-30, patch(9, 9).faces),
         bsm.TriangleMesh(patch(9, 9).positions * 1e200, patch(9, 9).faces),
     ],
-    ids=["tetrahedron", "triangle", "point", "repeated", "components", "mixed", "far", "tiny", "huge"],
+    ids=[
+        "tetrahedron",
+        "triangle",
+        "point",
+        "repeated",
+        "components",
+        "mixed",
+        "far",
+        "tiny",
+        "huge",
+    ],
 )
 @pytest.mark.parametrize("options", [{}, {"bits": 12}, {"key_interval": 1}], ids=str)
 def test_small_and_strange_meshes_come_back(mesh, options):
-    encoder = bsm.Encoder(mesh, encode_options(block_size=50, keep=1.0, step=1e-4, smoothing=0.0, **options))
+    encoder = bsm.Encoder(
+        mesh, encode_options(block_size=50, keep=1.0, step=1e-4, smoothing=0.0, **options)
+    )
     decoded = bsm.decode(encoder.encode())
     error = np.abs(mesh.positions[encoder.vertex_order] - decoded.positions).max()
     assert error <= 0.01 * mesh.diagonal + 1e-9 * np.abs(mesh.positions).max()
@@ -116,13 +134,26 @@ def test_a_stream_cut_anywhere_is_reported_as_truncated():
 
 def test_a_stream_over_the_limits_is_refused():
     data = bsm.encode(torus(), bsm.EncodeOptions(**SMALL))
-    for limit in ({"vertices": 959}, {"faces": 1000}, {"block_size": 99}, {"most_work": 1e3}, {"blocks": 2}):
+    for limit in (
+        {"vertices": 959},
+        {"faces": 1000},
+        {"block_size": 99},
+        {"most_work": 1e3},
+        {"blocks": 2},
+    ):
         with pytest.raises(bsm.LimitError):
             bsm.decode(data, limits=bsm.Limits(**limit))
 
 
 def test_illegal_options_are_refused():
-    for wrong in ({"keep": 0.0}, {"bits": 1}, {"bits": 17}, {"overlap": 0.9}, {"key_seed": "random"}, {"step": -1.0}):
+    for wrong in (
+        {"keep": 0.0},
+        {"bits": 1},
+        {"bits": 17},
+        {"overlap": 0.9},
+        {"key_seed": "random"},
+        {"step": -1.0},
+    ):
         with pytest.raises(bsm.OptionError):
             encode_options(**wrong)
 
@@ -131,7 +162,9 @@ def test_the_order_can_be_kept():
     shuffled = np.random.default_rng(5)
     mesh = together(torus(), patch(9, 12))
     place = shuffled.permutation(len(mesh.positions))
-    faces = np.array([np.roll(face, k) for face, k in zip(mesh.faces, shuffled.integers(0, 3, len(mesh.faces)))])
+    faces = np.array(
+        [np.roll(face, k) for face, k in zip(mesh.faces, shuffled.integers(0, 3, len(mesh.faces)))]
+    )
     mesh = bsm.TriangleMesh(mesh.positions[np.argsort(place)], shuffled.permutation(place[faces]))
     data = bsm.encode(mesh, bsm.EncodeOptions(**SMALL, keep_order=True))
     decoded = bsm.decode(data)

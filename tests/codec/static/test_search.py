@@ -9,7 +9,18 @@ from typing import Any
 import numpy as np
 import pytest
 
-from bsm import PRESETS, Attribute, Contract, EncodeOptions, Encoder, Target, TargetError, TriangleMesh, look, read_mesh
+from bsm import (
+    PRESETS,
+    Attribute,
+    Contract,
+    EncodeOptions,
+    Encoder,
+    Target,
+    TargetError,
+    TriangleMesh,
+    look,
+    read_mesh,
+)
 from bsm.codec.static.choice import search
 from bsm.codec.static.choice.bounds import Bounds
 from bsm.codec.static.choice.table import ways_of
@@ -25,7 +36,8 @@ SOME = (
     "static/fr_casting.ply", "static/gargoyle_10002.ply", "assets/robot_hand.obj",
     "static/cgal_elephant_with_holes.ply",
 )  # fmt: skip
-BY_CHANCE = 1.14  # a way whose first trial promises less is not opened, though a later one may be smaller
+# A way whose first trial promises less is not opened, though a later one may be smaller.
+BY_CHANCE = 1.14
 
 
 @pytest.mark.parametrize("slope", [0.6, 1.0, 1.8])
@@ -46,7 +58,9 @@ def test_it_stays_within_what_there_is() -> None:
     assert min(tried) >= 1e-3 * (1.0 - 1e-12)
 
 
-def sizes(mesh: TriangleMesh, monkeypatch: pytest.MonkeyPatch, effort: str = "normal") -> tuple[int, list[int]]:
+def sizes(
+    mesh: TriangleMesh, monkeypatch: pytest.MonkeyPatch, effort: str = "normal"
+) -> tuple[int, list[int]]:
     """Bytes with all ways, and with each of them alone."""
     options = EncodeOptions(threads=1, effort=effort)
     encoder = Encoder(mesh, options)
@@ -64,15 +78,25 @@ def sizes(mesh: TriangleMesh, monkeypatch: pytest.MonkeyPatch, effort: str = "no
     return whole, alone
 
 
-@pytest.mark.parametrize(("mesh", "rough"), [(torus(40, 24), 0.0), (patch(24, 24), 0.002)], ids=["torus", "patch"])
-def test_a_further_way_makes_no_file_larger(mesh: TriangleMesh, rough: float, monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize(
+    ("mesh", "rough"), [(torus(40, 24), 0.0), (patch(24, 24), 0.002)], ids=["torus", "patch"]
+)
+def test_a_further_way_makes_no_file_larger(
+    mesh: TriangleMesh, rough: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
     noise = np.random.default_rng(0).normal(size=mesh.positions.shape)
-    whole, less = sizes(replace(mesh, positions=mesh.positions + rough * mesh.diagonal * noise), monkeypatch)
+    whole, less = sizes(
+        replace(mesh, positions=mesh.positions + rough * mesh.diagonal * noise), monkeypatch
+    )
     assert whole <= min(less) + 1  # where parts repeat, no places are chosen
 
 
-@pytest.mark.parametrize("effort", ["quick", "normal", pytest.param("best", marks=pytest.mark.slow)])
-def test_a_further_way_makes_no_file_with_normals_larger(effort: str, monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize(
+    "effort", ["quick", "normal", pytest.param("best", marks=pytest.mark.slow)]
+)
+def test_a_further_way_makes_no_file_with_normals_larger(
+    effort: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
     mesh = torus(40, 24)
     normals = Attribute("normal", smooth_normals(mesh).astype(np.float32), "vertex", "normal")
     whole, less = sizes(replace(mesh, attributes=(normals,)), monkeypatch, effort)
@@ -82,14 +106,19 @@ def test_a_further_way_makes_no_file_with_normals_larger(effort: str, monkeypatc
 @pytest.mark.real
 @pytest.mark.slow
 @pytest.mark.parametrize("name", SOME)
-def test_a_further_way_makes_no_real_file_larger(name: str, meshes: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_further_way_makes_no_real_file_larger(
+    name: str, meshes: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     whole, less = sizes(read_mesh(str(meshes / name)).mesh.bare, monkeypatch)
     assert whole <= BY_CHANCE * min(less)
 
 
 def test_looks_that_do_not_decide_end_at_one_grid() -> None:
     mesh = torus(14, 10)
-    found = {Encoder(mesh, EncodeOptions(contract=Contract(1e-3, look=look))).encode() for look in (20.0, 30.0)}
+    found = {
+        Encoder(mesh, EncodeOptions(contract=Contract(1e-3, look=look))).encode()
+        for look in (20.0, 30.0)
+    }
     assert len(found) == 1
 
 
@@ -100,7 +129,9 @@ def test_every_way_has_an_estimate_and_the_end_a_reason() -> None:
     bounds = Bounds(encoder._input.measures, encoder.options.promise)
     names = [way.name for way in ways_of(encoder._input.prepared, bounds, encoder.options)]
     assert [event.way for event in encoder.trials if event.action == "estimate"] == names
-    assert actions.index("code" if "code" in actions else "draw") >= len(names), "estimates come first"
+    assert actions.index("code" if "code" in actions else "draw") >= len(names), (
+        "estimates come first"
+    )
     assert actions[-1] == "end" and encoder.trials[-1].reason
     drawn = [event for event in encoder.trials if event.action == "draw"]
     assert any(event.error <= 1.0 for event in drawn) and all(event.step > 0.0 for event in drawn)

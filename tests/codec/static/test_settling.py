@@ -72,14 +72,18 @@ def test_heights_make_good_what_is_left_along_axes_that_are_not_the_surfaces_own
     errors = [steps * levels - wanted for levels in (
         np.rint(wanted / steps), settler.levels(wanted, frames, steps, lambda _: steps, 0.001, ANYWHERE)
     )]  # fmt: skip
-    plain, settled = (np.abs((in_frames(FRAMES[:, :3], frames) * error).sum(axis=1)).mean() for error in errors)
+    plain, settled = (
+        np.abs((in_frames(FRAMES[:, :3], frames) * error).sum(axis=1)).mean() for error in errors
+    )
     assert settled < 0.7 * plain
 
 
 BENT = torus(60, 9)
 """Bends around its tube are near 40 degrees, more on the outside than on the inside."""
 RNG = np.random.default_rng(3)
-ROUGH = TriangleMesh(BENT.positions + RNG.normal(0, 0.003 * BENT.diagonal, BENT.positions.shape), BENT.faces)
+ROUGH = TriangleMesh(
+    BENT.positions + RNG.normal(0, 0.003 * BENT.diagonal, BENT.positions.shape), BENT.faces
+)
 
 
 def wrong(creases: Creases, positions):
@@ -93,7 +97,10 @@ def test_pairs_and_costs_are_those_of_all_corners():
     creases = creases_of(positions, faces)
     normals = face_normals(positions, faces)
     area = np.linalg.norm(
-        np.cross(positions[faces[:, 1]] - positions[faces[:, 0]], positions[faces[:, 2]] - positions[faces[:, 0]]),
+        np.cross(
+            positions[faces[:, 1]] - positions[faces[:, 0]],
+            positions[faces[:, 2]] - positions[faces[:, 0]],
+        ),
         axis=1,
     )
     around = vertex_faces(faces, len(positions))
@@ -103,7 +110,10 @@ def test_pairs_and_costs_are_those_of_all_corners():
         for f, g in combinations(sorted(int(row) for row in rows), 2):
             if abs(np.degrees(np.arccos(normals[f] @ normals[g])) - 40.0) < WITHIN:
                 expected[f, g] = expected.get((f, g), 0.0) + (area[f] + area[g]) / (3 * area.sum())
-    found = {tuple(sorted(map(int, pair))): cost for pair, cost in zip(creases.pairs, creases.costs, strict=True)}
+    found = {
+        tuple(sorted(map(int, pair))): cost
+        for pair, cost in zip(creases.pairs, creases.costs, strict=True)
+    }
     assert found.keys() == expected.keys()
     assert len(found) == len(creases.pairs) > 100
     assert found == pytest.approx(expected)
@@ -133,7 +143,11 @@ def test_levels_keep_creases():
             offsets, frames, steps, lambda _: steps, 0.05, np.full(count, np.inf)
         )
         error = levels * steps - offsets
-        broken.append(wrong(creases, positions + np.einsum("na,nad->nd", error, frames.reshape(-1, 3, 3))).mean())
+        broken.append(
+            wrong(
+                creases, positions + np.einsum("na,nad->nd", error, frames.reshape(-1, 3, 3))
+            ).mean()
+        )
         errors.append(np.sqrt(np.square(error).mean()))
     assert broken[1] < 0.5 * broken[0]
     assert errors[1] < 1.5 * errors[0]

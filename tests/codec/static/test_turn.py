@@ -8,14 +8,26 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import bsm
-from bsm import PRESETS, Attribute, EncodeOptions, Encoder, Target, TriangleMesh, decode, encode, read_mesh
+from bsm import (
+    PRESETS,
+    Attribute,
+    EncodeOptions,
+    Encoder,
+    Target,
+    TriangleMesh,
+    decode,
+    encode,
+    read_mesh,
+)
 from bsm.codec.geometry.turns import turn_of, turned_by
 from tests.refined import header_of
 from tools.surgery import frames_of, is_brief, stream_of
 from tools.vectors.meshes import together, torus
 
 BOX = np.array([[x, y, z] for x in (0.0, 1.0) for y in (0.0, 1.0) for z in (0.0, 1.0)])
-SIDES = np.array([[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]])
+SIDES = np.array(
+    [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
+)
 FACES = np.concatenate([SIDES[:, [0, 1, 2]], SIDES[:, [0, 2, 3]]]).astype(np.int32)
 ASKEW = (0.3, -0.2, 0.4)
 
@@ -23,7 +35,9 @@ ASKEW = (0.3, -0.2, 0.4)
 def boxes(count: int = 60) -> TriangleMesh:
     """Boxes of any sizes along the axes."""
     numbers = np.random.default_rng(count)
-    parts = [BOX * numbers.uniform(0.2, 2.0, 3) + numbers.uniform(-5.0, 5.0, 3) for _ in range(count)]
+    parts = [
+        BOX * numbers.uniform(0.2, 2.0, 3) + numbers.uniform(-5.0, 5.0, 3) for _ in range(count)
+    ]
     mesh = together(*(TriangleMesh(part, FACES) for part in parts))
     return replace(mesh, faces=mesh.faces.astype(np.int32))
 
@@ -53,11 +67,17 @@ def test_a_turn_is_the_rotation_of_its_quaternion(turn):
 def test_the_axes_of_boxes_are_found(turn):
     mesh = askew(boxes(), turn)
     axes = turned_by(np.eye(3), turn_of(mesh.positions, mesh.faces)) @ turned_by(np.eye(3), turn).T
-    assert np.allclose(np.sort(np.abs(axes), axis=1), [0.0, 0.0, 1.0], atol=3e-3), "a relabeling of the axes"
+    assert np.allclose(np.sort(np.abs(axes), axis=1), [0.0, 0.0, 1.0], atol=3e-3), (
+        "a relabeling of the axes"
+    )
 
 
 def test_nothing_is_turned_without_reason():
-    for mesh in (boxes(), torus(20, 16), TriangleMesh(np.zeros((3, 3)), np.array([[0, 1, 2]], np.int32))):
+    for mesh in (
+        boxes(),
+        torus(20, 16),
+        TriangleMesh(np.zeros((3, 3)), np.array([[0, 1, 2]], np.int32)),
+    ):
         assert turn_of(mesh.positions, mesh.faces) == (0.0, 0.0, 0.0)
         assert header_of(encode(mesh)).turn == (0.0, 0.0, 0.0)
 
@@ -71,7 +91,9 @@ def test_a_part_that_was_modeled_askew_takes_about_the_bytes_of_one_along_the_ax
 
 
 @pytest.mark.parametrize(
-    "options", [{"congruence": False}, {"grid": 12}, {"exact": True}, {"effort": "quick"}], ids=lambda o: next(iter(o))
+    "options",
+    [{"congruence": False}, {"grid": 12}, {"exact": True}, {"effort": "quick"}],
+    ids=lambda o: next(iter(o)),
 )
 def test_streams_of_1_0_are_not_turned(options):
     data = encode(askew(boxes(20)), EncodeOptions(**options))
@@ -80,18 +102,26 @@ def test_streams_of_1_0_are_not_turned(options):
 
 def test_sent_normals_keep_their_axes():
     mesh = askew(boxes())
-    normals = Attribute("normal", np.tile([0.0, 0.0, 1.0], (len(mesh.positions), 1)), "vertex", "normal")
+    normals = Attribute(
+        "normal", np.tile([0.0, 0.0, 1.0], (len(mesh.positions), 1)), "vertex", "normal"
+    )
     assert header_of(encode(replace(mesh, attributes=(normals,)))).turn == (0.0, 0.0, 0.0)
 
 
 def test_attributes_order_and_metadata_come_back_from_turned_grids():
     mesh = askew(boxes())
-    labels = Attribute("label", np.arange(len(mesh.positions), dtype=np.uint16)[:, None] // 8, "vertex")
-    data = encode(replace(mesh, attributes=(labels,), metadata={"unit": "mm"}), EncodeOptions(keep_order=True))
+    labels = Attribute(
+        "label", np.arange(len(mesh.positions), dtype=np.uint16)[:, None] // 8, "vertex"
+    )
+    data = encode(
+        replace(mesh, attributes=(labels,), metadata={"unit": "mm"}), EncodeOptions(keep_order=True)
+    )
     found = decode(data)
     assert any(header_of(data).turn) and not is_brief(data)
     assert (found.attributes[0].values == labels.values).all() and found.metadata["unit"] == "mm"
-    assert (found.faces == mesh.faces).all() and np.abs(found.positions - mesh.positions).max() < 0.2
+    assert (found.faces == mesh.faces).all() and np.abs(
+        found.positions - mesh.positions
+    ).max() < 0.2
 
 
 def test_one_frame_holds_a_turned_grid():
@@ -101,7 +131,9 @@ def test_one_frame_holds_a_turned_grid():
 
 
 def test_a_size_is_met_in_turned_axes():
-    result = Encoder(askew(boxes()), EncodeOptions(target=Target("size", 1200.0), contract=None)).result()
+    result = Encoder(
+        askew(boxes()), EncodeOptions(target=Target("size", 1200.0), contract=None)
+    ).result()
     assert result.size <= 1200 and any(result.header.turn)
 
 

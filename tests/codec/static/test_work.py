@@ -3,7 +3,17 @@
 import numpy as np
 import pytest
 
-from bsm import PRESETS, Decoder, EncodeOptions, LimitError, Limits, OptionError, TriangleMesh, decode, encode
+from bsm import (
+    PRESETS,
+    Decoder,
+    EncodeOptions,
+    LimitError,
+    Limits,
+    OptionError,
+    TriangleMesh,
+    decode,
+    encode,
+)
 from bsm._core import Decoder as Engine
 from bsm.codec.decoding import BLOCK, mask_of
 from bsm.encoding.options import encode_options
@@ -40,7 +50,9 @@ def work_of(stream, limits=None):
 def test_where_everything_is_beside_everything_a_block_costs_more():
     mesh = soup(250, 500)
     size = len(mesh.positions)
-    stream = encode(mesh, EncodeOptions(block_size=size, overlap=1.0, coefficients=4, smoothing=0.0))
+    stream = encode(
+        mesh, EncodeOptions(block_size=size, overlap=1.0, coefficients=4, smoothing=0.0)
+    )
     assert len(decode(stream).positions) == size
     tangled = work_of(stream)
     with pytest.raises(LimitError, match="work"):
@@ -110,4 +122,6 @@ def test_asking_what_changed_is_not_work_of_the_stream():
             below = middle
     scarce, late, same = asked(2, work=enough, work_per_vertex=0.0)
     assert scarce == work and sum(map(len, late[:-2])) < 2500
-    assert np.array_equal(np.sort(np.concatenate(late)), np.arange(3600)) and np.array_equal(same, positions)
+    assert np.array_equal(np.sort(np.concatenate(late)), np.arange(3600)) and np.array_equal(
+        same, positions
+    )

@@ -9,7 +9,15 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from tools.replicate.fetch import Source
-from tools.replicate.paper import coherence, compression, denoising, dynamic, iterations, segments, trajectories
+from tools.replicate.paper import (
+    coherence,
+    compression,
+    denoising,
+    dynamic,
+    iterations,
+    segments,
+    trajectories,
+)
 from tools.replicate.paper.models import Study
 from tools.replicate.paper.parts import parts
 from tools.replicate.rates import Row

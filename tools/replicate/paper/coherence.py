@@ -56,7 +56,9 @@ def resolvent(laplacian: Floats, shift: float) -> Floats:
 
 def coherence_errors(matrices: list[Floats]) -> Floats:
     """Mean squared error between the first matrix of each model (rows) and the mean of each model (columns)."""
-    return np.array([[np.square(own[0] - other.mean(axis=0)).mean() for other in matrices] for own in matrices])
+    return np.array(
+        [[np.square(own[0] - other.mean(axis=0)).mean() for other in matrices] for own in matrices]
+    )
 
 
 def nearest_to_own(matrices: list[Floats]) -> list[int]:
@@ -80,8 +82,13 @@ def coherence(study: Study) -> Iterator[Row]:
     def by_model(weights: Weights, shift: float = 0.0, *, sort: bool = False) -> list[Floats]:
         found = []
         for role, model in models.items():
-            own = [weights.laplacian(model, block if sort else in_file_order(block)) for block in blocks[role]]
-            found.append(np.array([resolvent(matrix, shift) if shift else matrix for matrix in own]))
+            own = [
+                weights.laplacian(model, block if sort else in_file_order(block))
+                for block in blocks[role]
+            ]
+            found.append(
+                np.array([resolvent(matrix, shift) if shift else matrix for matrix in own])
+            )
         return found
 
     best = by_model(Weights(), SHIFTS[1])
@@ -101,13 +108,25 @@ def coherence(study: Study) -> Iterator[Row]:
         numbers={"diagonal": f"{diagonal} of {len(table)}"},
     )
     ways = {f"R, delta = {shift:.3g}": by_model(Weights(), shift) for shift in SHIFTS}
-    ways |= {f"R, delta = {shift:.3g}, no weights": by_model(Weights(by_length=False), shift) for shift in SHIFTS}
-    ways |= {f"R, delta = {SHIFTS[1]:g}, our order of rows": by_model(Weights(), SHIFTS[1], sort=True)}
-    ways |= {"L as printed": by_model(Weights(printed=True)), "L, no weights": by_model(Weights(by_length=False))}
+    ways |= {
+        f"R, delta = {shift:.3g}, no weights": by_model(Weights(by_length=False), shift)
+        for shift in SHIFTS
+    }
+    ways |= {
+        f"R, delta = {SHIFTS[1]:g}, our order of rows": by_model(Weights(), SHIFTS[1], sort=True)
+    }
+    ways |= {
+        "L as printed": by_model(Weights(printed=True)),
+        "L, no weights": by_model(Weights(by_length=False)),
+    }
     counts = {name: nearest_to_own(matrices) for name, matrices in ways.items()}
     whole = {name: sum(own) for name, own in counts.items()}
     by_r, of = [whole[f"R, delta = {shift:.3g}"] for shift in SHIFTS], sum(map(len, best))
-    numbers = {"r": f"{by_r[0]}, {by_r[1]} and {by_r[2]}", "l": str(whole["L as printed"]), "of": str(of)}
+    numbers = {
+        "r": f"{by_r[0]}, {by_r[1]} and {by_r[2]}",
+        "l": str(whole["L as printed"]),
+        "of": str(of),
+    }
     numbers |= {
         "plain": str(whole["L, no weights"]),
         "sorted": str(whole[f"R, delta = {SHIFTS[1]:g}, our order of rows"]),
@@ -130,5 +149,9 @@ def coherence(study: Study) -> Iterator[Row]:
         numbers=numbers,
     )
     save_matrices(
-        study.output, {models[role].name: [np.array(own[k]) for k in range(3)] for role, own in zip(COHERENCE, best)}
+        study.output,
+        {
+            models[role].name: [np.array(own[k]) for k in range(3)]
+            for role, own in zip(COHERENCE, best)
+        },
     )

@@ -29,7 +29,13 @@ from tools.replicate.rates import Row
 BASES = {"bunny": 70, "julio": 70, "armadillo": 20, "fandisk 0.3": 15}
 KEPT, THRESHOLDS = (0.10, 0.20), (0.14, 0.1, 0.07, 0.05, 0.035)
 """Shares of n_d; larger thresholds of DOI over the diagonal. The smaller ones are a tenth less."""
-LINES = {"OI, R": (1, 1), "OI, R^2": (2, 1), "OI, R^3": (3, 1), "OI, R, t = 2": (1, 2), "OI, R, t = 3": (1, 3)}
+LINES = {
+    "OI, R": (1, 1),
+    "OI, R^2": (2, 1),
+    "OI, R^3": (3, 1),
+    "OI, R, t = 2": (1, 2),
+    "OI, R, t = 3": (1, 3),
+}
 """z and t."""
 SVD = "numpy svd, full"
 EXACT: dict[str, Callable[[Floats, int], Floats]] = {
@@ -37,7 +43,11 @@ EXACT: dict[str, Callable[[Floats, int], Floats]] = {
     "numpy eigh": lambda a, c: np.linalg.eigh(a)[1][:, :c],
     "scipy eigh, evr, subset": lambda a, c: scipy.linalg.eigh(a, subset_by_index=[0, c - 1])[1],
     "ARPACK, shift-invert": lambda a, c: eigsh(
-        csc_matrix(a), c, sigma=-0.125, which="LM", v0=np.random.default_rng(0).uniform(-1.0, 1.0, len(a))
+        csc_matrix(a),
+        c,
+        sigma=-0.125,
+        which="LM",
+        v0=np.random.default_rng(0).uniform(-1.0, 1.0, len(a)),
     )[1],
 }
 """Solvers for the c lowest eigenvectors of a dense Laplacian, shape (n, c)."""
@@ -52,8 +62,12 @@ def better(study: Study) -> Iterator[Row]:
         measured = partial(measure, mesh=mesh, reference=Reference(mesh.positions, mesh.faces))
         paper = measured(Spectral(paper_options()))
         level, size = paper["nmsve_db"], paper["bytes"]["total"]
-        ours = measured(Spectral(EncodeOptions(threads=1, contract=None, target=Target("nmsve_db", level))))
-        draco = rate_curve_of([measured(Draco(bits)) for bits in range(5, 13)], "nmsve_db").rate(level)
+        ours = measured(
+            Spectral(EncodeOptions(threads=1, contract=None, target=Target("nmsve_db", level)))
+        )
+        draco = rate_curve_of([measured(Draco(bits)) for bits in range(5, 13)], "nmsve_db").rate(
+            level
+        )
         beside = math.nan if draco is None else draco * len(mesh.positions) / 8.0
         found = ours["bytes"]["total"]
         row = level, size, ours["nmsve_db"], found, beside, found / size
@@ -62,7 +76,14 @@ def better(study: Study) -> Iterator[Row]:
         numbers[role] = f"{model.name} | {cells} | {beside:,.0f} | {found / size:.2f}"
     yield printed(
         "At equal NMSVE: the paper's mode, the codec, and Draco",
-        ("NMSVE, dB", "preset paper, bytes", "without preset, dB", "bytes", "Draco, bytes", "without over paper"),
+        (
+            "NMSVE, dB",
+            "preset paper, bytes",
+            "without preset, dB",
+            "bytes",
+            "Draco, bytes",
+            "without over paper",
+        ),
         rows,
         "Whole files, with connectivity. Without preset, the NMSVE of preset paper is the target. Draco's bytes (level "
         "10, 5 to 12 bits) are interpolated; nan: the NMSVE is outside of its range.",
@@ -86,13 +107,21 @@ def basis(study: Study) -> Iterator[Row]:
         for keep in KEPT:
             width = round(keep * cut.size)
             level = cut.decibels([u[:, :width] for u in cut.exact], bits=BITS)
-            above = [cut.decibels(cut.chain(width, power)[0], bits=BITS) - level for power in (1, 2)]
+            above = [
+                cut.decibels(cut.chain(width, power)[0], bits=BITS) - level for power in (1, 2)
+            ]
             stream = measure(Spectral(options(coefficients=width)), model.mesh, model.reference)
             here = level + above[1]
             others = in_file.decibels(in_file.chain(round(keep * in_file.size), 2)[0], bits=BITS)
             rate = cut.rate(sum(min(width, block.size) for block in cut.blocks))
             label = f"{model.name}, {len(cut.blocks)} blocks, {100 * keep:g} %"
-            rows.append((label, (rate, level, *above, stream["bpv_paper"], stream["nmsve_paper_db"], others), ()))
+            rows.append(
+                (
+                    label,
+                    (rate, level, *above, stream["bpv_paper"], stream["nmsve_paper_db"], others),
+                    (),
+                )
+            )
             found = (*above, abs(stream["nmsve_paper_db"] - here), abs(others - here))
             for own, gap in zip(gaps.values(), found, strict=True):
                 own.append(gap)
@@ -102,7 +131,14 @@ def basis(study: Study) -> Iterator[Row]:
     yield printed(
         "The paper, 8.1: orthogonal iterations and the exact basis",
         (
-            *("bpv", "SVD, dB", "z = 1, above it", "z = 2, above it", "bpv of a stream", "its NMSVE, z = 2, dB"),
+            *(
+                "bpv",
+                "SVD, dB",
+                "z = 1, above it",
+                "z = 2, above it",
+                "bpv of a stream",
+                "its NMSVE, z = 2, dB",
+            ),
             "z = 2, parts by the order of the file, dB",
         ),
         rows,
@@ -133,7 +169,9 @@ def rate_and_error(study: Study) -> Iterator[Row]:
     for share in shares:
         width = round(share * cut.size)
         rate = cut.rate(width * len(cut.blocks))
-        lines.setdefault("SVD", []).append((rate, cut.decibels([u[:, :width] for u in cut.exact], bits=BITS)))
+        lines.setdefault("SVD", []).append(
+            (rate, cut.decibels([u[:, :width] for u in cut.exact], bits=BITS))
+        )
         for name, (power, iterations) in LINES.items():
             bases, took = cut.chain(width, power, iterations)
             lines.setdefault(name, []).append((rate, cut.decibels(bases, bits=BITS)))
@@ -146,13 +184,18 @@ def rate_and_error(study: Study) -> Iterator[Row]:
         lines.setdefault("DOI, R", []).append((rate, cut.decibels(track.bases, bits=BITS)))
         seconds.setdefault("DOI, R", []).append(track.seconds)
     labels = {
-        name: f"{name} ({svd:.1f} s)" if name == "SVD" else f"{name} ({min(own):.2f} to {max(own):.2f} s)"
+        name: f"{name} ({svd:.1f} s)"
+        if name == "SVD"
+        else f"{name} ({min(own):.2f} to {max(own):.2f} s)"
         for name, own in seconds.items()
     }
     save_lines(
         study.output,
         "figure-11",
-        {line.label: line.points for line in distinct({n: Drawn(labels[n], own) for n, own in lines.items()}).values()},
+        {
+            line.label: line.points
+            for line in distinct({n: Drawn(labels[n], own) for n, own in lines.items()}).values()
+        },
         "bits per vertex of coefficients, 3 q c k / n",
         "NMSVE as printed, dB",
         f"{model.name}, {len(cut.blocks)} blocks",
@@ -160,18 +203,31 @@ def rate_and_error(study: Study) -> Iterator[Row]:
     fixed = np.array(lines["SVD"])
     rows: list[Line] = [(f"SVD, {svd:.2f} s", tuple(level for _, level in lines["SVD"]), ())]
     rows += [
-        (f"{labels[name]}, above SVD", tuple(level - exact for (_, level), (_, exact) in zip(lines[name], fixed)), ())
+        (
+            f"{labels[name]}, above SVD",
+            tuple(level - exact for (_, level), (_, exact) in zip(lines[name], fixed)),
+            (),
+        )
         for name in LINES
     ]
-    rows.append((f"{labels['DOI, R']}, at other bpv", tuple(level for _, level in lines["DOI, R"]), ()))
-    inside = [(rate, level) for rate, level in lines["DOI, R"] if fixed[0, 0] <= rate <= fixed[-1, 0]]
+    rows.append(
+        (f"{labels['DOI, R']}, at other bpv", tuple(level for _, level in lines["DOI, R"]), ())
+    )
+    inside = [
+        (rate, level) for rate, level in lines["DOI, R"] if fixed[0, 0] <= rate <= fixed[-1, 0]
+    ]
     right = [level - float(np.interp(rate, *np.array(lines["OI, R"]).T)) for rate, level in inside]
-    linear = [float(np.mean(np.divide(seconds[f"OI, R, t = {t}"], seconds["OI, R"]))) for t in (2, 3)]
+    linear = [
+        float(np.mean(np.divide(seconds[f"OI, R, t = {t}"], seconds["OI, R"]))) for t in (2, 3)
+    ]
     most = svd / min(seconds["OI, R"])
     gap = max(level - exact for name in LINES for (_, level), (_, exact) in zip(lines[name], fixed))
     yield printed(
         "The paper, 8.1 (Figure 11): NMSVE over bits per vertex",
-        [f"c = {100 * share:g} %, {rate:.2f} bpv" for share, (rate, _) in zip(shares, lines["SVD"])],
+        [
+            f"c = {100 * share:g} %, {rate:.2f} bpv"
+            for share, (rate, _) in zip(shares, lines["SVD"])
+        ],
         rows,
         f"{model.name} in {len(cut.blocks)} blocks, 12 bits a coefficient; seconds of one thread for the dictionaries "
         "of all blocks, without METIS, growth and order of rows; those of DOI with all sizes that are tried. DOI's "
@@ -233,7 +289,9 @@ def speed(study: Study) -> Iterator[Row]:
             name: share * sum(fastest(partial(solve, laplacian, width), 1) for laplacian in chosen)
             for name, solve in EXACT.items()
         }
-        turns = [[cut.chain(width, power) for power in (1, 2)] for _ in range(TURNS * study.repeats)]
+        turns = [
+            [cut.chain(width, power) for power in (1, 2)] for _ in range(TURNS * study.repeats)
+        ]
         for power, runs in zip((1, 2), zip(*turns, strict=True), strict=True):
             bases, seconds = min(runs, key=lambda run: run[1])
             above = cut.decibels(bases) - level
@@ -245,7 +303,12 @@ def speed(study: Study) -> Iterator[Row]:
     solvers = ", ".join(f"{name} {seconds:.2f} s" for name, seconds in exact.items())
     yield printed(
         "Speed of warm starts",
-        ("times faster than the fastest exact solver", "than full SVD", "NMSVE above exact, dB", "s, all blocks"),
+        (
+            "times faster than the fastest exact solver",
+            "than full SVD",
+            "NMSVE above exact, dB",
+            "s, all blocks",
+        ),
         rows,
         f"{model.name} in {len(cut.blocks)} blocks, one thread: order, factors, solutions and orthonormalization, "
         f"one iteration from the block before. Exact at c = 20 %, of every fifth block: {solvers}.",

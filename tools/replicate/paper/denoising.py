@@ -104,7 +104,10 @@ def times(study: Study) -> Iterator[Row]:
     for role, published in TIMES.items():
         model, shares = study.model(role), study.some(published)
         blocks, before = cut(model, SEGMENTS[role])
-        size, repeats = int(np.diff(blocks.starts).max()), study.repeats if blocks.count < 100 else 1
+        size, repeats = (
+            int(np.diff(blocks.starts).max()),
+            study.repeats if blocks.count < 100 else 1,
+        )
         exact = exact_steps(model, blocks, [round(share / 100 * size) for share in shares])
         svd, rows, once = svd_seconds(blocks), list[Line](), []
 
@@ -113,9 +116,13 @@ def times(study: Study) -> Iterator[Row]:
 
         for share, solved in zip(shares, exact, strict=True):
             keep = share / 100
-            seconds, single = (dictionary_seconds(blocks, keep, rules, repeats) for rules in (TWICE, ONCE))
+            seconds, single = (
+                dictionary_seconds(blocks, keep, rules, repeats) for rules in (TWICE, ONCE)
+            )
             once.append(svd / single)
-            filters = (model.coarse(SEGMENTS[role], keep=keep, rules=rules) for rules in (TWICE, ONCE))
+            filters = (
+                model.coarse(SEGMENTS[role], keep=keep, rules=rules) for rules in (TWICE, ONCE)
+            )
             errors = [level(solved), *(level(filtered(model.noisy, keep)) for filtered in filters)]
             ours = (*errors[:2], errors[1] - errors[0], svd, seconds, svd / seconds)
             there = published[share]
@@ -126,7 +133,15 @@ def times(study: Study) -> Iterator[Row]:
         yield printed(
             f"The paper, 8.2 (Table 6): NMSVE and times, {role}",
             (
-                *("SVD, dB", "OI, dB", "OI less SVD, dB", "SVD, s", "OI, s", "speed-up", "with cutting"),
+                *(
+                    "SVD, dB",
+                    "OI, dB",
+                    "OI less SVD, dB",
+                    "SVD, s",
+                    "OI, s",
+                    "speed-up",
+                    "with cutting",
+                ),
                 *("of R^3 once, one Onorm", "R^3 once less SVD, dB", "against eigh of c vectors"),
             ),
             rows,
@@ -168,7 +183,9 @@ def large(study: Study) -> Iterator[Row]:
     """The dictionaries of all blocks of a large mesh, and the coarse step with them, beside SVD's."""
     model = study.model("hand")
     blocks, before = cut(model, SEGMENTS["hand"])
-    filtered = CoarseFilter(model.faces, len(model.clean), block=model.block(SEGMENTS["hand"]), rules=TWICE)
+    filtered = CoarseFilter(
+        model.faces, len(model.clean), block=model.block(SEGMENTS["hand"]), rules=TWICE
+    )
     begin = time.thread_time()
     smooth = filtered(model.noisy)
     applied = time.thread_time() - begin
@@ -181,7 +198,11 @@ def large(study: Study) -> Iterator[Row]:
         [
             ("dictionaries of all blocks, OI, R^3, two iterations", (made, made + before), ()),
             ("one iteration, one Onorm", (once, once + before), ()),
-            (f"SVD of all blocks (of {len(chosen(blocks)[0])} blocks, taken for all)", (svd, svd + before), ()),
+            (
+                f"SVD of all blocks (of {len(chosen(blocks)[0])} blocks, taken for all)",
+                (svd, svd + before),
+                (),
+            ),
             ("coarse step with them", (applied,), ()),
         ],
         f"{model.name}, {len(model.clean):,} vertices in {blocks.count} blocks, c = {100 * KEEP:g} %, seconds of one "
@@ -212,11 +233,15 @@ def powers(study: Study) -> Iterator[Row]:
                 seconds = dictionary_seconds(blocks, KEEP, rules, study.repeats)
                 positions = model.coarse(10, rules=rules)(model.noisy)
             pictures[name] = positions
-            rows.append((name, (seconds, model.reference.theta(positions), seconds + before), there))
+            rows.append(
+                (name, (seconds, model.reference.theta(positions), seconds + before), there)
+            )
         if role == "fandisk":
             every = list(pictures.items())
             half = (len(every) + 1) // 2
-            save_surfaces(study.output, "figure-16", model.faces, [dict(every[:half]), dict(every[half:])])
+            save_surfaces(
+                study.output, "figure-16", model.faces, [dict(every[:half]), dict(every[half:])]
+            )
         angles = {name: own[1] for name, own, _ in rows}
         high = [angle for name, angle in angles.items() if name != "SVD" and int(name[2:]) > 4]
         apart = max((abs(angle - angles["SVD"]) for angle in high), default=0.0)
@@ -260,9 +285,13 @@ def rivals(study: Study) -> Iterator[Row]:
                     pictures[name] = alone, after
     if pictures:
         rows_of = [{name: pair[k] for name, pair in pictures.items()} for k in (0, 1)]
-        save_surfaces(study.output, "figure-14", fandisk.faces, rows_of, ("alone", "after the coarse step"))
+        save_surfaces(
+            study.output, "figure-14", fandisk.faces, rows_of, ("alone", "after the coarse step")
+        )
     counts = {noise: (sum(own), len(own)) for noise, own in helps.items()}
-    words = ", ".join(f"in {right} of {of} cases at {noise:g}" for noise, (right, of) in counts.items())
+    words = ", ".join(
+        f"in {right} of {of} cases at {noise:g}" for noise, (right, of) in counts.items()
+    )
     yield printed(
         "The paper, 8.2 (Figure 14): other methods after the coarse step",
         ("noisy", "coarse", "method alone", "after the coarse step"),
@@ -276,7 +305,9 @@ def rivals(study: Study) -> Iterator[Row]:
             all(right == of for right, of in counts.values()),
             f"it lowers the angle {words}.",
             *every,
-            value=100 * sum(right for right, _ in counts.values()) / sum(of for _, of in counts.values()),
+            value=100
+            * sum(right for right, _ in counts.values())
+            / sum(of for _, of in counts.values()),
             unit="% of the cases",
         ),
         numbers={f"{noise:g}": f"{right} of {of}" for noise, (right, of) in counts.items()},
@@ -300,7 +331,9 @@ def fewer_iterations(study: Study) -> Iterator[Row]:
         coarse = CoarseFilter(model.faces, len(noisy))(noisy)
         for name, step in FILTERS.items():
             ways = (noisy, FEW), (noisy, MANY), (coarse, FEW), (coarse, MANY)
-            angles = [model.reference.theta(step(start, model.faces, count)) for start, count in ways]
+            angles = [
+                model.reference.theta(step(start, model.faces, count)) for start, count in ways
+            ]
             right += angles[2] <= angles[1]
             rows.append((f"{noise:g}, {name}", tuple(angles), ()))
     yield printed(

@@ -39,7 +39,9 @@ def eigenvectors(block: Block, width: int) -> Floats:
     return np.ascontiguousarray(np.linalg.eigh(dense_laplacian(block))[1][:, :width])
 
 
-def iterated(block: Block, start: Floats | Basis, power: int, iterations: int = 1, shift: float = SHIFT) -> Floats:
+def iterated(
+    block: Block, start: Floats | Basis, power: int, iterations: int = 1, shift: float = SHIFT
+) -> Floats:
     """U after orthogonal iterations from `start`, by the kernel of the codec."""
     apart = min(power, MOST_APART) if power > 1 else 0
     return block.iterated(start, shift, power, iterations, apart).astype(np.float64)
@@ -58,7 +60,9 @@ class Cut:
         blocks = model.blocks(segments)
         ordered = [blocks.block(index) for index in range(blocks.count)]
         size = max(block.size for block in ordered)
-        return cls(model, [in_file_order(b) if file_order else b for b in ordered], round(keep * size))
+        return cls(
+            model, [in_file_order(b) if file_order else b for b in ordered], round(keep * size)
+        )
 
     @property
     def size(self) -> int:
@@ -71,7 +75,12 @@ class Cut:
         return [eigenvectors(block, self.width) for block in self.blocks]
 
     def chain(
-        self, width: int, power: int, iterations: int = 1, order: Iterable[int] | None = None, shift: float = SHIFT
+        self,
+        width: int,
+        power: int,
+        iterations: int = 1,
+        order: Iterable[int] | None = None,
+        shift: float = SHIFT,
     ) -> tuple[list[Floats], float]:
         """Dictionaries along a chain, each from the one before, the first exact; and seconds of a thread for them."""
         bases: list[Floats] = [np.empty(0)] * len(self.blocks)
@@ -93,10 +102,15 @@ class Cut:
 
     def blended(self, bases: Sequence[Floats], values: Positions, bits: int = 0) -> Positions:
         """What the blocks keep of values, shape (n, 3); coefficients are rounded if there are `bits`."""
-        found = [center_and_coefficients(b, u, values) for b, u in zip(self.blocks, bases, strict=True)]
+        found = [
+            center_and_coefficients(b, u, values) for b, u in zip(self.blocks, bases, strict=True)
+        ]
         if bits:
             # The first row is that of the mean: it has a range of its own, as in the codec.
-            largest = [max(np.abs(kept[rows]).max(initial=0.0) for _, kept in found) for rows in FIRST_AND_OTHERS]
+            largest = [
+                max(np.abs(kept[rows]).max(initial=0.0) for _, kept in found)
+                for rows in FIRST_AND_OTHERS
+            ]
             for _, kept in found:
                 for rows, most in zip(FIRST_AND_OTHERS, largest, strict=True):
                     step = most / (2 ** (bits - 1) - 1) or 1.0
@@ -106,7 +120,9 @@ class Cut:
             blend.add(block.vertices, basis @ kept + center, degree_weights(block.degrees))
         return blend.all_positions()
 
-    def decibels(self, bases: Sequence[Floats], values: Positions | None = None, bits: int = 0) -> float:
+    def decibels(
+        self, bases: Sequence[Floats], values: Positions | None = None, bits: int = 0
+    ) -> float:
         """NMSVE as the paper prints it, of what the blocks keep of the clean mesh, or of `values`."""
         reference = self.model.reference
         kept = self.blended(bases, self.model.clean if values is None else values, bits)
@@ -125,7 +141,9 @@ def degree_weights(degrees: Indices) -> Floats:
 FIRST_AND_OTHERS = (slice(0, 1), slice(1, None))
 
 
-def center_and_coefficients(block: Block, basis: Floats, values: Positions) -> tuple[Floats, Floats]:
+def center_and_coefficients(
+    block: Block, basis: Floats, values: Positions
+) -> tuple[Floats, Floats]:
     """The middle of the mesh, which far from the origin would drown all else, and the coefficients of a block."""
     center = 0.5 * (values.min(axis=0) + values.max(axis=0))
     return center, basis.T @ (values[block.vertices] - center)

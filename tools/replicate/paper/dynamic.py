@@ -76,9 +76,14 @@ class Watch:
 def fixed_size(cut: Cut, values: Floats) -> Track:
     """One c for all blocks."""
     bases, seconds = cut.chain(cut.width, POWER)
-    rest = [values[b.vertices] - u @ (u.T @ values[b.vertices]) for b, u in zip(cut.blocks, bases, strict=True)]
+    rest = [
+        values[b.vertices] - u @ (u.T @ values[b.vertices])
+        for b, u in zip(cut.blocks, bases, strict=True)
+    ]
     errors = np.array([np.square(r).sum() for r in rest])
-    return Track(np.array([u.shape[1] for u in bases], float), errors, np.ones(len(bases)), seconds, bases)
+    return Track(
+        np.array([u.shape[1] for u in bases], float), errors, np.ones(len(bases)), seconds, bases
+    )
 
 
 def mean_residual(residual: Floats) -> float:
@@ -87,7 +92,12 @@ def mean_residual(residual: Floats) -> float:
 
 
 def sized(
-    basis: Floats, positions: Floats, iterate: Callable[[Floats], Floats], norm: Norm, low: float, high: float
+    basis: Floats,
+    positions: Floats,
+    iterate: Callable[[Floats], Floats],
+    norm: Norm,
+    low: float,
+    high: float,
 ) -> tuple[Floats, Floats, int]:
     """U of a block by Algorithm 2 as its text describes it, the residual, and iterations, from U of the block before.
 
@@ -169,7 +179,11 @@ def dynamic(study: Study) -> Iterator[Row]:
     fixed = fixed_size(cut, values)
     wanted = float(np.sqrt(fixed.errors).mean())
     steps, factors = (4, (1.0,)) if study.quick else (9, FACTORS)
-    tracks, jumps, prices = {"one c": fixed}, dict[tuple[str, float], list[float]](), dict[float, list[float]]()
+    tracks, jumps, prices = (
+        {"one c": fixed},
+        dict[tuple[str, float], list[float]](),
+        dict[float, list[float]](),
+    )
     for band in BANDS:
         runs: dict[str, Callable[[float], Track]] = {
             CODEC: partial(codec_rule, cut, values, band),
@@ -194,23 +208,42 @@ def dynamic(study: Study) -> Iterator[Row]:
     save_segments(
         study.output,
         {
-            "squared error": {name: track.errors.tolist() for name, track in list(tracks.items())[:4]},
+            "squared error": {
+                name: track.errors.tolist() for name, track in list(tracks.items())[:4]
+            },
             "c": {name: track.sizes.tolist() for name, track in list(tracks.items())[:4]},
         },
     )
     ours, theirs, literal = (tracks[f"{name}, eps_l = {BANDS[0]:g} eps_h"] for name in runs)
     price = {band: 100.0 * (own[0] / own[1] - 1.0) for band, own in prices.items()}
-    sudden = [abrupt(tracks[f"{name}, eps_l = {band:g} eps_h"].sizes) for name in (LIKE_TEXT, CODEC) for band in BANDS]
+    sudden = [
+        abrupt(tracks[f"{name}, eps_l = {band:g} eps_h"].sizes)
+        for name in (LIKE_TEXT, CODEC)
+        for band in BANDS
+    ]
     ideal = abrupt(least_sizes(cut, values, wanted))
     capped = int((theirs.iterations == MOST).sum())
     worded = {
-        name: " and ".join(", ".join(f"{jump:.0f}" for jump in jumps[name, band]) for band in BANDS) for name in runs
+        name: " and ".join(", ".join(f"{jump:.0f}" for jump in jumps[name, band]) for band in BANDS)
+        for name in runs
     }
     yield printed(
         "The paper, 8.1 (Figure 12): dynamic orthogonal iterations",
         (
-            *("sum of c", "least c", "largest c", "largest jump, % of the mean", "mean error", "spread of errors"),
-            *("OI a block", "most OI", "s", *(f"jump at {factor:g} of the error, %" for factor in factors[::2])),
+            *(
+                "sum of c",
+                "least c",
+                "largest c",
+                "largest jump, % of the mean",
+                "mean error",
+                "spread of errors",
+            ),
+            *(
+                "OI a block",
+                "most OI",
+                "s",
+                *(f"jump at {factor:g} of the error, %" for factor in factors[::2]),
+            ),
         )[: 9 + len(factors[::2]) * (len(factors) > 1)],
         rows,
         f"{model.name} in {len(cut.blocks)} blocks, z = {POWER}, at the same mean error (root of the squared error, "
@@ -258,7 +291,9 @@ def dynamic(study: Study) -> Iterator[Row]:
             "iterations": f"{theirs.iterations.mean():.1f}",
             "fixed s": f"{fixed.seconds:.2f}",
             **{
-                f"{key} s": " and ".join(f"{tracks[f'{name}, eps_l = {b:g} eps_h'].seconds:.2f}" for b in BANDS)
+                f"{key} s": " and ".join(
+                    f"{tracks[f'{name}, eps_l = {b:g} eps_h'].seconds:.2f}" for b in BANDS
+                )
                 for key, name in (("theirs", LIKE_TEXT), ("ours", CODEC))
             },
         },

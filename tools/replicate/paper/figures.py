@@ -16,7 +16,9 @@ Floats = npt.NDArray[np.float64]
 PIXELS = 420
 
 
-def save(output: Path | None, name: str, draw: Callable[[Any], None], width: float, height: float) -> None:
+def save(
+    output: Path | None, name: str, draw: Callable[[Any], None], width: float, height: float
+) -> None:
     """A picture as PNG and PDF, where there is a folder for it."""
     if output is not None:
         imported("matplotlib", "pictures need matplotlib", "eval")
@@ -24,14 +26,20 @@ def save(output: Path | None, name: str, draw: Callable[[Any], None], width: flo
 
 
 def save_surfaces(
-    output: Path | None, name: str, faces: Faces, rows: Sequence[Mapping[str, Positions]], labels: Sequence[str] = ()
+    output: Path | None,
+    name: str,
+    faces: Faces,
+    rows: Sequence[Mapping[str, Positions]],
+    labels: Sequence[str] = (),
 ) -> None:
     """Surfaces under titles, all in the frame of the first."""
     if output is None:
         return
     first = next(iter(rows[0].values()))
     bounds = bounds_of(first, DEFAULT_VIEW)
-    pictures = [{title: render(p, faces, PIXELS, bounds=bounds) for title, p in row.items()} for row in rows]
+    pictures = [
+        {title: render(p, faces, PIXELS, bounds=bounds) for title, p in row.items()} for row in rows
+    ]
 
     def draw(figure: Any) -> None:
         grid = figure.subplots(len(rows), max(map(len, rows)), squeeze=False)
@@ -65,11 +73,15 @@ def save_matrices(output: Path | None, models: Mapping[str, Sequence[Floats]]) -
     save(output, "figure-8", draw, 8.4, 2.2 * len(models))
 
 
-def save_boxes(output: Path | None, panels: Mapping[str, Mapping[str, tuple[Floats, Floats]]]) -> None:
+def save_boxes(
+    output: Path | None, panels: Mapping[str, Mapping[str, tuple[Floats, Floats]]]
+) -> None:
     """Figure 4: standard deviations of the errors of inner and boundary vertices, one for each segment."""
 
     def draw(figure: Any) -> None:
-        for axes, (title, cases) in zip(figure.subplots(1, len(panels), squeeze=False)[0], panels.items()):
+        for axes, (title, cases) in zip(
+            figure.subplots(1, len(panels), squeeze=False)[0], panels.items()
+        ):
             values = [own[own == own] for pair in cases.values() for own in pair]
             axes.boxplot(values, widths=0.6)
             names = [f"{name}\n{where}" for name in cases for where in ("inner", "boundary")]
@@ -81,7 +93,12 @@ def save_boxes(output: Path | None, panels: Mapping[str, Mapping[str, tuple[Floa
 
 
 def save_lines(
-    output: Path | None, name: str, lines: Mapping[str, Sequence[tuple[float, float]]], x: str, y: str, title: str
+    output: Path | None,
+    name: str,
+    lines: Mapping[str, Sequence[tuple[float, float]]],
+    x: str,
+    y: str,
+    title: str,
 ) -> None:
     """Lines with markers, and labels beside their ends."""
 

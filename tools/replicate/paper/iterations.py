@@ -93,7 +93,9 @@ def first_block(study: Study) -> Iterator[Row]:
     rows: list[Line] = []
     for power in (1, 2):
         orders = [[(start + step) % count for step in range(count)] for start in starts]
-        above = [cut.decibels(cut.chain(cut.width, power, order=order)[0]) - level for order in orders]
+        above = [
+            cut.decibels(cut.chain(cut.width, power, order=order)[0]) - level for order in orders
+        ]
         rows.append((f"z = {power}", tuple(above), ()))
     apart = max(max(own) - min(own) for _, own, _ in rows)
     yield printed(
@@ -135,20 +137,27 @@ def convergence(study: Study) -> Iterator[Row]:
     for block in chosen:
         values, vectors = np.linalg.eigh(dense_laplacian(block))
         low, high = round(0.08 * block.size), round(0.12 * block.size)
-        width = low + int(np.argmax(np.diff(values[low : high + 1]) / values[low:high])) + 1  # before the widest gap
+        # Before the widest gap.
+        width = low + int(np.argmax(np.diff(values[low : high + 1]) / values[low:high])) + 1
         weights = 1.0 / (values + SHIFT)
         for power in POWERS_TRIED:
             basis = np.linalg.qr(np.random.default_rng(width).normal(size=(block.size, width)))[0]
             errors: list[float] = []
             for _ in range(LATE[1]):
                 basis = np.linalg.qr(vectors @ (weights[:, None] ** power * (vectors.T @ basis)))[0]
-                errors.append(subspace_error(vectors[:, :width], basis) if len(errors) + 1 in LATE else 0.0)
+                errors.append(
+                    subspace_error(vectors[:, :width], basis) if len(errors) + 1 in LATE else 0.0
+                )
             rate = (errors[-1] / errors[LATE[0] - 1]) ** (1.0 / (LATE[1] - LATE[0]))
-            found[power].append((float(rate), float((weights[width] / weights[width - 1]) ** power)))
+            found[power].append(
+                (float(rate), float((weights[width] / weights[width - 1]) ** power))
+            )
     rows: list[Line] = []
     for power, pairs in found.items():
         seen, said = np.median(np.array(pairs), axis=0)
-        rows.append((f"z = {power}", (float(seen), float(said), max(abs(a - b) for a, b in pairs)), ()))
+        rows.append(
+            (f"z = {power}", (float(seen), float(said), max(abs(a - b) for a, b in pairs)), ())
+        )
     worst = max(own[2] for _, own, _ in rows)
     yield printed(
         "The paper, 4: rate of convergence",
@@ -202,14 +211,18 @@ def orthonormalization(study: Study) -> Iterator[Row]:
     model = study.model("bunny")
     cut = Cut.of(model, 70, 0.10)
     pairs = list(zip(cut.blocks, cut.blocks[1:], strict=False))[:: 10 if study.quick else 4]
-    found: dict[str, list[tuple[float, float, float]]] = {name: [] for name in (*ONORMS, "the codec's kernel")}
+    found: dict[str, list[tuple[float, float, float]]] = {
+        name: [] for name in (*ONORMS, "the codec's kernel")
+    }
     for before, block in pairs:
         start = cut.exact[cut.blocks.index(before)]
         if len(start) != block.size:
             continue
         solved = np.linalg.inv(dense_laplacian(block) + SHIFT * np.eye(block.size))
         values, best = solved @ (solved @ start), householder(solved @ (solved @ start))
-        works: dict[str, Callable[[], Floats]] = {name: partial(onorm, values) for name, onorm in ONORMS.items()}
+        works: dict[str, Callable[[], Floats]] = {
+            name: partial(onorm, values) for name, onorm in ONORMS.items()
+        }
         works["the codec's kernel"] = partial(iterated, block, start, 2)
         for name, work in works.items():
             begin = time.thread_time()
@@ -217,9 +230,15 @@ def orthonormalization(study: Study) -> Iterator[Row]:
             seconds = time.thread_time() - begin
             off = np.abs(columns.T @ columns - np.eye(columns.shape[1])).max()
             found[name].append(
-                (1e3 * seconds, float(off), float(np.linalg.norm(columns - best @ (best.T @ columns), 2)))
+                (
+                    1e3 * seconds,
+                    float(off),
+                    float(np.linalg.norm(columns - best @ (best.T @ columns), 2)),
+                )
             )
-    rows: list[Line] = [(name, tuple(np.median(np.array(own), axis=0).tolist()), ()) for name, own in found.items()]
+    rows: list[Line] = [
+        (name, tuple(np.median(np.array(own), axis=0).tolist()), ()) for name, own in found.items()
+    ]
     yield printed(
         "The paper, 4: orthonormalization",
         ("ms a block", "U^T U - I at most", "sine to Householder's subspace"),
@@ -293,12 +312,16 @@ def complexity(study: Study) -> Iterator[Row]:
     model = study.model("bunny")
     cuts = [Cut.of(model, count, max(WIDTHS)) for count in TIMED]
     narrow, middle = round(WIDTHS[1] * cuts[0].size), cuts[1]
-    cases = [(cut, narrow) for cut in cuts] + [(middle, round(share * middle.size)) for share in WIDTHS]
+    cases = [(cut, narrow) for cut in cuts] + [
+        (middle, round(share * middle.size)) for share in WIDTHS
+    ]
     ours, theirs = list[float](), list[float]()
     for cut, width in cases:
         laplacian = dense_laplacian(cut.blocks[len(cut.blocks) // 2])
         # The first block of a chain is exact, and not timed.
-        ours.append(min(cut.chain(width, 1)[1] for _ in range(study.repeats)) / (len(cut.blocks) - 1))
+        ours.append(
+            min(cut.chain(width, 1)[1] for _ in range(study.repeats)) / (len(cut.blocks) - 1)
+        )
         theirs.append(fastest(partial(np.linalg.svd, laplacian), study.repeats))
 
     def powers(sizes: list[int], seconds: list[float]) -> list[float]:
@@ -339,7 +362,10 @@ def shifts(study: Study) -> Iterator[Row]:
     rows: list[Line] = [
         (
             f"delta = {shift:.3g}",
-            tuple(cut.decibels(cut.chain(cut.width, power, shift=shift)[0]) - level for power in POWERS_TRIED),
+            tuple(
+                cut.decibels(cut.chain(cut.width, power, shift=shift)[0]) - level
+                for power in POWERS_TRIED
+            ),
             (),
         )
         for shift in SHIFTS

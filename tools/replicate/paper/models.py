@@ -52,7 +52,9 @@ SEGMENTS = {"armadillo": 20.0, "hand": 930 * 327_323 / 437_645}
 
 def complete(folder: Path | None) -> bool:
     """Whether a folder has a file for every role."""
-    return folder is not None and all((folder / "static" / f"{role.file}.ply").exists() for role in ROLES.values())
+    return folder is not None and all(
+        (folder / "static" / f"{role.file}.ply").exists() for role in ROLES.values()
+    )
 
 
 @dataclass(frozen=True, eq=False)
@@ -124,7 +126,9 @@ class Study:
     def some(self, values: Iterable[Item]) -> list[Item]:
         """The values that are tried."""
         every = list(values)
-        return [v for i, v in enumerate(every) if not self.quick or i % 4 == 0 or i == len(every) - 1]
+        return [
+            v for i, v in enumerate(every) if not self.quick or i % 4 == 0 or i == len(every) - 1
+        ]
 
     def model(self, role: str) -> Model:
         """The model that plays a role of the paper."""

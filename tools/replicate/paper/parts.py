@@ -23,7 +23,14 @@ from tools.replicate.rates import Row
 
 SEGMENTS = {"bunny": 70, "fandisk 0.3": 15}
 COLUMNS = (
-    *("bpv of files", "bpv of coefficients", "s to the first", "kB to the first", "s", "NMSVE, averaged, dB"),
+    *(
+        "bpv of files",
+        "bpv of coefficients",
+        "s to the first",
+        "kB to the first",
+        "s",
+        "NMSVE, averaged, dB",
+    ),
     *("border over inside", "NMSVE, last copy, dB", "border over inside"),
 )
 Mask = npt.NDArray[np.bool_]
@@ -35,7 +42,10 @@ def cut(model: Model, segments: float) -> tuple[list[Mask], list[Mask]]:
     partition = metis_partition(graph, model.segments(segments))
     blocks = grow_blocks(graph, partition, block_size(partition, OVERLAP))
     owner = partition.labels[model.faces].min(axis=1)
-    grown = [np.asarray(np.isin(model.faces, blocks.members_of(k)).all(axis=1)) for k in range(blocks.count)]
+    grown = [
+        np.asarray(np.isin(model.faces, blocks.members_of(k)).all(axis=1))
+        for k in range(blocks.count)
+    ]
     return [owner == part for part in range(partition.parts)], grown
 
 
@@ -52,13 +62,21 @@ def whole(model: Model, segments: float, border: Mask) -> tuple[float, ...]:
     data, align = codec.encode(model.mesh)
     seconds, rate = time.thread_time() - begin, inspect_stream([data]).bpv_paper
     block = next(packet for packet in Skimmer().receive(data) if packet.type == FrameType.BLOCK)
-    found, first = errors(model, align(codec.decode(data)), border), 1e-3 * (block.offset + block.length)
+    found, first = (
+        errors(model, align(codec.decode(data)), border),
+        1e-3 * (block.offset + block.length),
+    )
     return 8 * len(data) / len(model.clean), rate, seconds, first, seconds, *found, *found
 
 
 def one_by_one(model: Model, masks: Sequence[Mask], border: Mask) -> tuple[float, ...]:
     """The row of parts that arrive one by one."""
-    encoder, coefficients, sums, last = PartCoder(threads=1), 0.0, np.zeros((len(model.clean), 4)), model.clean.copy()
+    encoder, coefficients, sums, last = (
+        PartCoder(threads=1),
+        0.0,
+        np.zeros((len(model.clean), 4)),
+        model.clean.copy(),
+    )
     sizes, seconds = list[int](), list[float]()
     for mask in masks:
         used, corners = np.unique(model.faces[mask], return_inverse=True)
@@ -66,13 +84,18 @@ def one_by_one(model: Model, masks: Sequence[Mask], border: Mask) -> tuple[float
         data, decoded = encoder.encode(TriangleMesh(model.clean[used], faces))
         seconds.append(time.thread_time() - begin)
         sizes.append(len(data))
-        coefficients += inspect_stream([data.removeprefix(MARK)]).bpv_paper * len(used) / len(model.clean)
+        coefficients += (
+            inspect_stream([data.removeprefix(MARK)]).bpv_paper * len(used) / len(model.clean)
+        )
         vertices = used[encode_connectivity(faces, len(used)).vertex_order]
         degrees = np.diff(graph_of_faces(decoded.faces, len(used)).offsets)[:, None]
         sums[vertices] += degrees * np.column_stack([decoded.positions, np.ones(len(used))])
         last[vertices] = decoded.positions
     means = errors(model, sums[:, :3] / sums[:, 3:], border)
-    rates, times = (8 * sum(sizes) / len(model.clean), coefficients), (seconds[0], 1e-3 * sizes[0], sum(seconds))
+    rates, times = (
+        (8 * sum(sizes) / len(model.clean), coefficients),
+        (seconds[0], 1e-3 * sizes[0], sum(seconds)),
+    )
     return *rates, *times, *means, *errors(model, last, border)
 
 
@@ -90,9 +113,13 @@ def parts(study: Study) -> Iterator[Row]:
             "parts": one_by_one(model, apart, border),
             "parts that overlap": one_by_one(model, grown, border),
         }
-        rows += [(f"{model.name}, {len(apart)} blocks, {way}", own, ()) for way, own in found.items()]
+        rows += [
+            (f"{model.name}, {len(apart)} blocks, {way}", own, ()) for way, own in found.items()
+        ]
         for way, own in found.items():
-            numbers |= {f"{role.split()[0]} {way} {at}": f"{value:.2f}" for at, value in enumerate(own)}
+            numbers |= {
+                f"{role.split()[0]} {way} {at}": f"{value:.2f}" for at, value in enumerate(own)
+            }
     yield printed(
         "The paper, 6.3: parts that arrive one by one",
         COLUMNS,

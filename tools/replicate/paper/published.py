@@ -33,7 +33,13 @@ def printed(
 ) -> Row:
     """A table: our numbers, in brackets those of the paper; `numbers` are quoted by the documents."""
     rows = [
-        [label, *(f"{x:.5g}" + ("" if y is None else f" ({y:.5g})") for x, y in zip_longest(ours, theirs))]
+        [
+            label,
+            *(
+                f"{x:.5g}" + ("" if y is None else f" ({y:.5g})")
+                for x, y in zip_longest(ours, theirs)
+            ),
+        ]
         for label, ours, theirs in lines
     ]
     names = ["", *columns]
@@ -48,7 +54,9 @@ def claim(says: str, holds: bool, found: str, *models: Model, value: float, unit
     """Judge something that the paper says in words on these meshes; not on stand-ins."""
     others = [model for model in models if not model.own]
     if others:
-        names = ", ".join(dict.fromkeys(f"{model.name} stands in for {model.title}" for model in others))
+        names = ", ".join(
+            dict.fromkeys(f"{model.name} stands in for {model.title}" for model in others)
+        )
         return Claim(says, None, f'"{says}" is not judged: {names}.', value, unit)
     names = " and ".join(dict.fromkeys(model.name for model in models))
     verdict = "holds" if holds else "does not hold"
@@ -119,7 +127,13 @@ The paper has a misprint, -475263, for OI at 15 % on the Armadillo.
 
 
 def _by_power(*columns: tuple[float, ...]) -> dict[str, tuple[float, ...]]:
-    return dict(zip((*(f"R^{power}" for power in range(1, 10)), "SVD"), zip(*columns, strict=True), strict=True))
+    return dict(
+        zip(
+            (*(f"R^{power}" for power in range(1, 10)), "SVD"),
+            zip(*columns, strict=True),
+            strict=True,
+        )
+    )
 
 
 POWERS = {

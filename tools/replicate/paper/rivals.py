@@ -45,7 +45,11 @@ def owners(rows: Lists) -> Whole:
 
 
 def reached(
-    first: tuple[Whole, Whole], adjacent: Lists, centers: Positions, points: Positions, radii: Floats
+    first: tuple[Whole, Whole],
+    adjacent: Lists,
+    centers: Positions,
+    points: Positions,
+    radii: Floats,
 ) -> tuple[Whole, Whole]:
     """Points within a radius of each center that a path of such points connects with it, as (center, point) pairs.
 
@@ -64,14 +68,19 @@ def reached(
         of, to = edge // size, edge % size
         steps = counts[to]
         behind = np.arange(steps.sum()) - np.repeat(np.cumsum(steps) - steps, steps)
-        of, to = np.repeat(of, steps), adjacent.members[np.repeat(adjacent.starts[to], steps) + behind].astype(np.int64)
+        of, to = (
+            np.repeat(of, steps),
+            adjacent.members[np.repeat(adjacent.starts[to], steps) + behind].astype(np.int64),
+        )
         keep = near(of, to)
         edge = np.setdiff1d(np.unique(of[keep] * size + to[keep]), seen, assume_unique=True)
         seen = np.union1d(seen, edge)
     return seen // size, seen % size
 
 
-def fleishman(positions: Positions, faces: Faces, iterations: int = FLEISHMAN_ITERATIONS) -> Positions:
+def fleishman(
+    positions: Positions, faces: Faces, iterations: int = FLEISHMAN_ITERATIONS
+) -> Positions:
     """Move each vertex along its normal by the bilateral mean of its neighbors' heights.
 
     The spatial width is the shortest edge at the vertex, and neighbors lie within twice of it; the other width is the
@@ -113,7 +122,9 @@ def jones(positions: Positions, faces: Faces, width: float = JONES_WIDTH) -> Pos
     def mean(weights: Floats, values: Floats) -> Floats:
         total = np.bincount(of, weights, n)
         sums = np.stack([np.bincount(of, weights * column, n) for column in values.T], axis=1)
-        return np.where(total[:, None] > 0.0, sums / np.where(total > 0.0, total, 1.0)[:, None], positions)
+        return np.where(
+            total[:, None] > 0.0, sums / np.where(total > 0.0, total, 1.0)[:, None], positions
+        )
 
     smooth = mean(areas[to] * np.exp(-0.5 * squared / (0.5 * sigma) ** 2), centroids[to])
     normals = face_normals(smooth, faces)[to]
@@ -129,7 +140,9 @@ def sun(positions: Positions, faces: Faces, iterations: int = SUN_NORMALS) -> Po
     of, to, normals = owners(rows), rows.members, face_normals(positions, faces)
     for _ in range(iterations):
         alike = np.einsum("ij,ij->i", normals[of], normals[to]) - SUN_THRESHOLD
-        weights = sparse.csr_matrix((np.square(np.maximum(alike, 0.0)), to, rows.starts), (len(faces), len(faces)))
+        weights = sparse.csr_matrix(
+            (np.square(np.maximum(alike, 0.0)), to, rows.starts), (len(faces), len(faces))
+        )
         summed = weights @ normals
         lengths = np.linalg.norm(summed, axis=1, keepdims=True)
         normals = np.where(lengths > 0.0, summed / np.where(lengths > 0.0, lengths, 1.0), normals)
@@ -165,7 +178,9 @@ class Edges(NamedTuple):
 
 def inner_edges(faces: Faces) -> Edges:
     """Edges of exactly two faces."""
-    halves = np.concatenate([faces, np.roll(faces, -1, axis=1), np.roll(faces, -2, axis=1)]).astype(np.int64)
+    halves = np.concatenate([faces, np.roll(faces, -1, axis=1), np.roll(faces, -2, axis=1)]).astype(
+        np.int64
+    )
     start, end, tip = halves.T
     key = np.minimum(start, end) << 32 | np.maximum(start, end)
     order = np.argsort(key, kind="stable")
@@ -219,6 +234,8 @@ RIVALS: dict[str, Callable[[Positions, Faces], Positions]] = {
     "bilateral normal (Zheng)": lambda positions, faces: bilateral_normal_filtering(
         positions, faces, NORMAL_ITERATIONS
     ),
-    "guided normal (Zhang)": lambda positions, faces: guided_normal_filtering(positions, faces, NORMAL_ITERATIONS),
+    "guided normal (Zhang)": lambda positions, faces: guided_normal_filtering(
+        positions, faces, NORMAL_ITERATIONS
+    ),
     "L0 (He, Schaefer)": l0,
 }

@@ -28,7 +28,9 @@ def plain_weights(degrees: Indices) -> Floats:
     return np.ones(len(degrees))
 
 
-def low_pass(model: Model, blocks: list[Block], width: int) -> Callable[[Callable[[Indices], Floats]], Floats]:
+def low_pass(
+    model: Model, blocks: list[Block], width: int
+) -> Callable[[Callable[[Indices], Floats]], Floats]:
     """The coarse step with exact bases in these blocks, for any weights of the copies."""
     parts = []
     for block in blocks:
@@ -84,20 +86,31 @@ def spreads(model: Model, cases: Cases, name: str) -> tuple[Floats, Floats]:
 
 def edge_effect(study: Study) -> Iterator[Row]:
     """Errors of inner and boundary vertices in three cases (Figures 4 and 5)."""
-    rows, panels, ratios, means = list[Line](), {}, dict[str, list[float]](), dict[str, list[float]]()
+    rows, panels, ratios, means = (
+        list[Line](),
+        {},
+        dict[str, list[float]](),
+        dict[str, list[float]](),
+    )
     fandisk = study.model("fandisk 0.3")
     pictures, labels = [], []
     for model, parts in ((fandisk, 10), (fandisk, 15), (fandisk, 20), (study.model("bunny"), 70)):
         count = model.segments(parts)
         cases = three_cases(model, count)
-        panels[f"{model.name}, {count} parts"] = {name: spreads(model, cases, name) for name in CASES}
+        panels[f"{model.name}, {count} parts"] = {
+            name: spreads(model, cases, name) for name in CASES
+        }
         for name in CASES:
             errors = np.linalg.norm(cases.results[name] - model.clean, axis=1)
-            inner, boundary = (float(errors[chosen].mean()) for chosen in (~cases.boundary, cases.boundary))
+            inner, boundary = (
+                float(errors[chosen].mean()) for chosen in (~cases.boundary, cases.boundary)
+            )
             ours, theirs = (float(np.nanmedian(values)) for values in spreads(model, cases, name))
             ratios.setdefault(name, []).append(theirs / ours)
             means.setdefault(name, []).append(boundary / inner)
-            rows.append((f"{model.name}, {count} parts, {name}", (boundary / inner, theirs / ours), ()))
+            rows.append(
+                (f"{model.name}, {count} parts, {name}", (boundary / inner, theirs / ours), ())
+            )
         if model is fandisk:
             pictures.append(cases.results)
             labels.append(f"{count} parts")
@@ -142,8 +155,16 @@ def number_of_segments(study: Study) -> Iterator[Row]:
     for count, published in study.some(BUNNY.items()):
         blocks, size = _cut(model, count, OVERLAP)
         smooth = low_pass(model, blocks, round(KEEP * size))
-        errors = [model.reference.mnd(smooth(weights)) for weights in (plain_weights, degree_weights)]
-        rows.append((model.counted(count), (model.block(count), *errors), (round(34_817 / count), *published)))
+        errors = [
+            model.reference.mnd(smooth(weights)) for weights in (plain_weights, degree_weights)
+        ]
+        rows.append(
+            (
+                model.counted(count),
+                (model.block(count), *errors),
+                (round(34_817 / count), *published),
+            )
+        )
     gains = sum(simple > weighted for _, (_, simple, weighted), _ in rows)
     rises = falls(rows[::-1], 2)
     yield printed(

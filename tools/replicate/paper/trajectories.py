@@ -38,7 +38,9 @@ class Followed:
     def __init__(self, power: int) -> None:
         self._power, self._basis, self._kept, self.seconds = power, np.empty((0, 0)), 0, 0.0
 
-    def basis(self, motion: Floats, step: float, limit: int) -> tuple[Floats, npt.NDArray[np.int32]]:
+    def basis(
+        self, motion: Floats, step: float, limit: int
+    ) -> tuple[Floats, npt.NDArray[np.int32]]:
         """In place of `learn_basis`, of trajectories or of rows with the same covariance."""
         energies, columns = self._eigenvectors(motion.T @ motion)
         return learn_basis((columns * np.sqrt(energies.clip(0.0))).T, step, limit)

@@ -21,8 +21,18 @@ from bsm.files.parsing import Doubles, Ints, require_counts
 
 _FLAT = r"(?:S|STRI|DS|M3D|R3D|SFM3D|F3D|AC2D|ACAX|DC2D|DCC2D|DCAX|DCCAX|CPS|CPE|CPEG|CAX|CGAX|E2D|WARP2D|COH2D)"
 _SOLID = r"(?:C3D|DC3D|DCC3D|AC3D|SC|CSS|COH3D|Q3D|F3D)"
-_KIND = re.compile(rf"(?:{_FLAT}(?P<flat>[34689])|{_SOLID}(?P<solid>4|5|6|8|10|15|20))(?![0-9V])\w*")
-_SHAPES = {4: "tetra", 5: "pyramid", 6: "wedge", 8: "hexahedron", 10: "tetra", 15: "wedge", 20: "hexahedron"}
+_KIND = re.compile(
+    rf"(?:{_FLAT}(?P<flat>[34689])|{_SOLID}(?P<solid>4|5|6|8|10|15|20))(?![0-9V])\w*"
+)
+_SHAPES = {
+    4: "tetra",
+    5: "pyramid",
+    6: "wedge",
+    8: "hexahedron",
+    10: "tetra",
+    15: "wedge",
+    20: "hexahedron",
+}
 _LINES = re.compile(
     r"(?:B[23]\d|T[23]D[23]|PIPE|ELBOW|MASS|ROTARYI|SPRING|DASHPOT|CONN|GAP|FRAME|RB|DC1D|DCOUP|D$|ITT|ITS|LS6)\w*"
 )
@@ -36,8 +46,10 @@ class _Scope:
     """Nodes and elements with numbers of their own: of the model, a part or an instance."""
 
     name: str
-    nodes: list[tuple[int, list[str]]] = field(default_factory=list)  # a line, and the data lines that follow
-    elements: list[tuple[str, str, int, list[str]]] = field(default_factory=list)  # with their kind and set
+    # A line, and the data lines that follow.
+    nodes: list[tuple[int, list[str]]] = field(default_factory=list)
+    # With their kind and set.
+    elements: list[tuple[str, str, int, list[str]]] = field(default_factory=list)
     part: "_Scope | None" = None  # of which it is an instance, with nodes and elements of its own
     placement: Doubles = field(default_factory=lambda: np.eye(4))
 
@@ -60,7 +72,9 @@ def _keywords(text: str) -> Iterator[_Keyword]:
         raise FormatError(f"line {first + 1}: {lines[first][:40]!r} {what}")
     for begin, end in pairwise([*starts, len(lines)]):
         head, *rows = filter(None, lines[begin:end])
-        goes_on = next((number for number, row in enumerate([head, *rows]) if not row.endswith(",")), len(rows))
+        goes_on = next(
+            (number for number, row in enumerate([head, *rows]) if not row.endswith(",")), len(rows)
+        )
         head, rows = "".join([head, *rows[:goes_on]]), rows[goes_on:]
         name, *words = (word.strip() for word in head[1:].split(","))
         pairs = (word.partition("=") for word in words if word)
@@ -87,13 +101,19 @@ def read_abaqus(data: bytes, path: str | None, limits: Limits) -> Polygons:
         if len(part.sizes):
             visible.append((scope, part))
             counts.append((len(part.positions), int(np.maximum(part.sizes - 2, 0).sum())))
-    placed_parts = (replace(part, name=scope.name).placed(scope.placement) for scope, part in visible)
+    placed_parts = (
+        replace(part, name=scope.name).placed(scope.placement) for scope, part in visible
+    )
     joined = joined_parts(placed_parts, counts, limits, len(data))
-    columns = [column for column in joined.columns if column.name != "group" or len(group_numbers) > 1]
+    columns = [
+        column for column in joined.columns if column.name != "group" or len(group_numbers) > 1
+    ]
     metadata = dict(joined.metadata)
     if any(group_numbers):
         metadata |= named(list(group_numbers), "group")
-    return replace(joined, dropped=(*losses, *table.notes), columns=tuple(columns), metadata=metadata)
+    return replace(
+        joined, dropped=(*losses, *table.notes), columns=tuple(columns), metadata=metadata
+    )
 
 
 class _ModelReader:
@@ -119,7 +139,9 @@ class _ModelReader:
             # Reference points of an assembly are in no element here.
             self._scope = _Scope("") if self._in_assembly else self.model
         elif name == "NODE":
-            if {"SYSTEM", "INPUT"} & parameters.keys() and parameters.get("SYSTEM", "").upper() != "R":
+            if {"SYSTEM", "INPUT"} & parameters.keys() and parameters.get(
+                "SYSTEM", ""
+            ).upper() != "R":
                 raise self._table.refusal(f"*NODE with {' and '.join(parameters)}", line)
             self._scope.nodes.append((line, keyword.rows))
             if "NSET" in parameters:
@@ -142,7 +164,9 @@ class _ModelReader:
         parameters = keyword.parameters
         part = self.parts.get(parameters.get("PART", "").upper())
         if part is None or {"LIBRARY", "INSTANCE"} & parameters.keys():
-            raise self._table.refusal(f"*INSTANCE of {parameters.get('PART', 'another model')}", keyword.line)
+            raise self._table.refusal(
+                f"*INSTANCE of {parameters.get('PART', 'another model')}", keyword.line
+            )
         self._scope = _Scope(parameters.get("NAME", ""), part=part, placement=_placement(keyword))
         self.instances.append(self._scope)
 
@@ -151,19 +175,29 @@ def _placement(keyword: _Keyword) -> Doubles:
     """Return the matrix of an instance: moved, then turned around an axis."""
     matrix = np.eye(4)
     try:
-        rows = [[float(word or "0") for word in row.rstrip(", ").split(",")] for row in keyword.rows]
+        rows = [
+            [float(word or "0") for word in row.rstrip(", ").split(",")] for row in keyword.rows
+        ]
         if rows:
             matrix[:3, 3] = (rows[0] + [0.0] * 3)[:3]
         if rows[1:]:
-            start, end, angle = np.array(rows[1][:3]), np.array(rows[1][3:6]), np.radians(rows[1][6])
+            start, end, angle = (
+                np.array(rows[1][:3]),
+                np.array(rows[1][3:6]),
+                np.radians(rows[1][6]),
+            )
             x, y, z = unit_rows((end - start)[None])[0]
             cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
             rotation = np.eye(4)
-            rotation[:3, :3] = np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross
+            rotation[:3, :3] = (
+                np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross
+            )
             rotation[:3, 3] = start - rotation[:3, :3] @ start
             matrix = rotation @ matrix
     except (ValueError, IndexError) as error:
-        raise FormatError(f"line {keyword.line}: the place of an instance is not made of numbers: {error}") from None
+        raise FormatError(
+            f"line {keyword.line}: the place of an instance is not made of numbers: {error}"
+        ) from None
     return matrix
 
 
@@ -180,9 +214,13 @@ class _Surfaces:
         part = scope.part
         own = scope if part is None or scope.nodes or scope.elements else part
         if part is not None and own is scope:
-            own = replace(scope, nodes=[*part.nodes, *scope.nodes], elements=[*part.elements, *scope.elements])
+            own = replace(
+                scope, nodes=[*part.nodes, *scope.nodes], elements=[*part.elements, *scope.elements]
+            )
             # Each such instance reads the lines of its part again.
-            self._lines += sum(len(lines) for _, lines in own.nodes) + sum(len(lines) for *_, lines in own.elements)
+            self._lines += sum(len(lines) for _, lines in own.nodes) + sum(
+                len(lines) for *_, lines in own.elements
+            )
             require_counts(self._limits, vertices=self._lines)
             return _surface(own, self._names, self._table, self._limits)
         if id(own) not in self._known:
@@ -190,7 +228,9 @@ class _Surfaces:
         return self._known[id(own)]
 
 
-def _surface(scope: _Scope, names: dict[str, int], table: Keywords, limits: Limits) -> tuple[Part, tuple[str, ...]]:
+def _surface(
+    scope: _Scope, names: dict[str, int], table: Keywords, limits: Limits
+) -> tuple[Part, tuple[str, ...]]:
     """Return the surface of a scope, and the names of the rest."""
     rows: list[tuple[int, list[str]]] = []
     for line, data_lines in scope.nodes:
@@ -201,7 +241,9 @@ def _surface(scope: _Scope, names: dict[str, int], table: Keywords, limits: Limi
     first_line = rows[0][0] if rows else 0
     numbers = Numbering(whole([words[0] for _, words in rows], "*NODE", first_line))
     try:
-        places = np.array([(*words[1:], "0", "0", "0")[:3] for _, words in rows], np.float64).reshape(-1, 3)
+        places = np.array(
+            [(*words[1:], "0", "0", "0")[:3] for _, words in rows], np.float64
+        ).reshape(-1, 3)
     except ValueError as error:
         raise FormatError(f"line {first_line}: a node is not made of numbers: {error}") from None
     blocks: list[tuple[str, Ints]] = []
@@ -211,11 +253,15 @@ def _surface(scope: _Scope, names: dict[str, int], table: Keywords, limits: Limi
         if not shape:
             if not _LINES.fullmatch(kind):
                 raise table.refusal(f"*ELEMENT of the type {kind or '(none)'}", line)
-            table.counts[f"elements of the type {kind}"] += sum(not row.endswith(",") for row in data_lines)
+            table.counts[f"elements of the type {kind}"] += sum(
+                not row.endswith(",") for row in data_lines
+            )
             continue
         words = ",".join(data_lines).replace(",", " ").split()
         if len(words) % (count + 1):
-            raise FormatError(f"line {line}: elements of the type {kind} do not have {count} nodes each")
+            raise FormatError(
+                f"line {line}: elements of the type {kind} do not have {count} nodes each"
+            )
         nodes = whole(words, "*ELEMENT", line).reshape(-1, count + 1)[:, 1:]
         blocks.append((shape, nodes))
         sets += [names.setdefault(set_name, len(names))] * len(nodes)

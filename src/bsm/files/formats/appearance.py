@@ -30,7 +30,8 @@ class Texture:
     scale: Numbers = (1.0, 1.0)
     offset: Numbers = (0.0, 0.0)
     rotation: float = 0.0  # in radians, counterclockwise
-    wrap: tuple[str, ...] = ("repeat", "repeat")  # beyond the image, across and up; or clamp, mirror
+    # Beyond the image, across and up; or clamp, mirror.
+    wrap: tuple[str, ...] = ("repeat", "repeat")
     set: int = 0  # of texture coordinates
 
     def in_words(self, word: str) -> Material:
@@ -73,11 +74,14 @@ class Appearance:
     cutoff: float = 0.5
     double_sided: bool = False
     unlit: bool = False
-    stated: Mapping[str, tuple[str, ...]] = field(default_factory=dict, compare=False)  # fields by the words for them
+    # Fields by the words for them.
+    stated: Mapping[str, tuple[str, ...]] = field(default_factory=dict, compare=False)
 
     def says(self, name: str) -> bool:
         """Whether a word says this field, or it is unusual."""
-        return any(name in fields for fields in self.stated.values()) or getattr(self, name) != getattr(USUAL, name)
+        return any(name in fields for fields in self.stated.values()) or getattr(
+            self, name
+        ) != getattr(USUAL, name)
 
 
 USUAL = Appearance()
@@ -104,7 +108,11 @@ def held_by(kind: str) -> set[str]:
 
 
 _GLTF, _MTL = fields_of("glTF"), fields_of("MTL")
-_OF_MTL = {word.lower(): word for word in {**_MTL, **dict.fromkeys(_ROWS[-1]["MTL"].split())} if word != "name"}
+_OF_MTL = {
+    word.lower(): word
+    for word in {**_MTL, **dict.fromkeys(_ROWS[-1]["MTL"].split())}
+    if word != "name"
+}
 """Words of MTL as most files write them, by those in lower case."""
 MTL_IMAGES = re.compile(r"map_\w+|bump|disp|decal|norm|refl")
 _MOVE = r"\s*-([so])((?:\s+[-+]?[\d.]+(?:e[-+]?\d+)?){1,3})|\s*-clamp\s+(on)\b"
@@ -117,7 +125,9 @@ _MTL_OPTIONS = re.compile(
 
 
 def is_mtl(word: str) -> bool:
-    return word in _OF_MTL.values() or MTL_IMAGES.fullmatch(word.removesuffix(".options")) is not None
+    return (
+        word in _OF_MTL.values() or MTL_IMAGES.fullmatch(word.removesuffix(".options")) is not None
+    )
 
 
 def refers_to_image(word: str) -> bool:
@@ -154,7 +164,8 @@ def appearance(words: Material) -> Appearance:
         fields.setdefault("metallic", 1.0 if has_metal_image else 0.0)
         if "map_Ke" in words and not any(fields.get("emission", ())):
             fields["emission"] = (1.0, 1.0, 1.0)
-    if "map_d" in words and words["map_d"] == words.get("map_Kd"):  # the image of the color also holds the opacity
+    # The image of the color also holds the opacity.
+    if "map_d" in words and words["map_d"] == words.get("map_Kd"):
         fields_by_word["map_d"] = ("mode",)
     if fields.get("opacity", 1.0) < 1 or "map_d" in fields_by_word:
         fields.setdefault("mode", "BLEND")
@@ -212,7 +223,10 @@ def _texture_fields(words: Material, word: str) -> dict[str, dict[str, Any]]:
         fields["set"] = {"set": coordinate_set}
     options = str(words.get(f"{word}.options", ""))
     if re.fullmatch(f"(?:{_MOVE})+", options):
-        values = {option: tuple(as_numbers(numbers)[:2]) for option, numbers, _ in re.findall(_MOVE, options)}
+        values = {
+            option: tuple(as_numbers(numbers)[:2])
+            for option, numbers, _ in re.findall(_MOVE, options)
+        }
         scale = (*values.get("s", ()), 1.0, 1.0)[:2]
         offset = (*values.get("o", ()), 0.0, 0.0)[:2]
         fields["options"] = {"scale": scale, "offset": offset}
@@ -223,12 +237,21 @@ def _texture_fields(words: Material, word: str) -> dict[str, dict[str, Any]]:
 
 def within(look: Appearance) -> tuple[Appearance, list[str]]:
     """Return an appearance in the ranges that formats have, and the fields that lay beyond; only light may exceed 1."""
-    most = {"color": 1.0, "opacity": 1.0, "metallic": 1.0, "roughness": 1.0, "emission": math.inf, "cutoff": math.inf}
+    most = {
+        "color": 1.0,
+        "opacity": 1.0,
+        "metallic": 1.0,
+        "roughness": 1.0,
+        "emission": math.inf,
+        "cutoff": math.inf,
+    }
     inside: dict[str, Any] = {}
     for name, limit in most.items():
         value = np.clip(getattr(look, name), 0.0, limit).tolist()
         inside[name] = tuple(value) if isinstance(value, list) else value
-    return replace(look, **inside), [name for name, value in inside.items() if value != getattr(look, name)]
+    return replace(look, **inside), [
+        name for name, value in inside.items() if value != getattr(look, name)
+    ]
 
 
 def in_gltf(look: Appearance) -> dict[str, Any]:
@@ -245,7 +268,9 @@ def in_gltf(look: Appearance) -> dict[str, Any]:
 def in_mtl(words: Material) -> Material:
     """Return a material in the words of MTL: those that it has, and those for fields that the words of glTF say."""
     look, _ = within(appearance(words))
-    mtl_words: Material = {word: value for word, value in words.items() if is_mtl(word) or word == "name"}
+    mtl_words: Material = {
+        word: value for word, value in words.items() if is_mtl(word) or word == "name"
+    }
     fields: set[str] = set()
     for word, names in look.stated.items():
         if not is_mtl(word):
@@ -257,7 +282,11 @@ def in_mtl(words: Material) -> Material:
         fields.remove(name)
         value = getattr(look, name)
         if isinstance(value, Texture):
-            mtl_words |= {key: entry for key, entry in value.in_words(word).items() if key == word or is_mtl(key)}
+            mtl_words |= {
+                key: entry
+                for key, entry in value.in_words(word).items()
+                if key == word or is_mtl(key)
+            }
         elif name == "mode":
             if value != "OPAQUE" and "map_Kd" in mtl_words:
                 mtl_words[word] = mtl_words["map_Kd"]
@@ -296,7 +325,9 @@ def _color_words(value: str) -> str:
     return " ".join(numbers * 3 if len(numbers) == 1 else numbers)
 
 
-def write_mtl(materials: Mapping[int, Material], names: Mapping[int, str], images: Mapping[int, str]) -> bytes:
+def write_mtl(
+    materials: Mapping[int, Material], names: Mapping[int, str], images: Mapping[int, str]
+) -> bytes:
     lines: list[str] = []
     for number, material in materials.items():
         lines.append(f"newmtl {names[number]}")

@@ -92,7 +92,9 @@ def _sides(kind: str, table: Ints, cells: Ints, points: Doubles) -> list[_Side]:
                 nodes.append(corner_count + ends.index({corner, following}))
         ring = table[:, nodes]
         if is_solid:
-            _turn_outward(ring, points[ring[:, ::step]], points[table[:, :corner_count]].mean(axis=1))
+            _turn_outward(
+                ring, points[ring[:, ::step]], points[table[:, :corner_count]].mean(axis=1)
+            )
         # A side is known by its corners, sorted: two cells run around the side between them in opposite directions.
         key = np.pad(np.sort(ring[:, ::step]), ((0, 0), (0, 4 - len(face))), constant_values=-1)
         pieces = [ring]
@@ -146,9 +148,14 @@ def skin(
         lost[INSIDE] = None
     columns_of_points = {name: np.asarray(values)[used] for name, values in of_points.items()}
     columns_of_cells = {name: np.asarray(values)[owner[order]] for name, values in of_cells.items()}
-    columns = (*columns_of(columns_of_points, "vertex", lost), *columns_of(columns_of_cells, "face", lost))
+    columns = (
+        *columns_of(columns_of_points, "vertex", lost),
+        *columns_of(columns_of_cells, "face", lost),
+    )
     corners = np.searchsorted(used, corners)
-    return Polygons(points[used], sizes[order], corners, (), (*lost, *losses), columns, metadata or {})
+    return Polygons(
+        points[used], sizes[order], corners, (), (*lost, *losses), columns, metadata or {}
+    )
 
 
 def _tables_of_kinds(blocks: Sequence[tuple[str, Any]]) -> Iterator[tuple[str, Ints, Ints]]:
@@ -173,7 +180,9 @@ def _tables_of_kinds(blocks: Sequence[tuple[str, Any]]) -> Iterator[tuple[str, I
 def _outer_polygons(sides: list[_Side]) -> tuple[Ints, Ints, Ints]:
     """Return the cells, the sizes and the corners of all sides but those of solids that two cells have."""
     nothing = np.empty(0, np.int64)
-    numbers = row_numbers(np.concatenate([np.empty((0, 4), np.int64), *(key for _, key, _, _ in sides)]))
+    numbers = row_numbers(
+        np.concatenate([np.empty((0, 4), np.int64), *(key for _, key, _, _ in sides)])
+    )
     # A side of two cells lies inside.
     is_single = np.bincount(numbers)[numbers] == 1
     owners, sizes, corners = [nothing], [nothing], [nothing]
@@ -194,7 +203,10 @@ def _outer_polygons(sides: list[_Side]) -> tuple[Ints, Ints, Ints]:
 def of_meshio(mesh: Any) -> Polygons:
     """Return the surfaces of a meshio mesh and the skin of its volumes, in the order of its cells."""
     losses: list[str] = []
-    blocks = [(block.type, [*block.data] if block.type.startswith("poly") else block.data) for block in mesh.cells]
+    blocks = [
+        (block.type, [*block.data] if block.type.startswith("poly") else block.data)
+        for block in mesh.cells
+    ]
     for what in ("point_sets", "cell_sets", "field_data", "info"):
         names = ", ".join(map(str, getattr(mesh, what, None) or ()))
         if names:

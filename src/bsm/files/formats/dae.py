@@ -16,7 +16,16 @@ from bsm.bitstream.limits import Limits
 from bsm.codec.geometry.attributes import Semantic
 from bsm.files.formats.appearance import Material, Texture, as_text
 from bsm.files.formats.metadata import Beside, Value, described, kind_of_image
-from bsm.files.formats.polygons import Array, Column, Part, Polygons, color_column, compact, cut_holes, joined_parts
+from bsm.files.formats.polygons import (
+    Array,
+    Column,
+    Part,
+    Polygons,
+    color_column,
+    compact,
+    cut_holes,
+    joined_parts,
+)
 from bsm.files.parsing import Doubles, Ints, as_library_error, in_words
 from bsm.files.unread import Taken, rows_of
 from bsm.ground.lengths import unit_named
@@ -25,7 +34,13 @@ _SEMANTICS: dict[str, Semantic] = {"NORMAL": "normal", "TEXCOORD": "texcoord", "
 _MOST_ERRORS = 8  # of pycollada that notes name
 _NUMBERS = {"diffuse": "Kd", "ambient": "Ka", "specular": "Ks", "emission": "Ke", "shininess": "Ns"}
 _NUMBERS["index_of_refraction"] = "Ni"
-_IMAGES = {"diffuse": "map_Kd", "ambient": "map_Ka", "specular": "map_Ks", "emission": "map_Ke", "bumpmap": "map_Bump"}
+_IMAGES = {
+    "diffuse": "map_Kd",
+    "ambient": "map_Ka",
+    "specular": "map_Ks",
+    "emission": "map_Ke",
+    "bumpmap": "map_Bump",
+}
 _IMAGES["transparent"] = "map_d"
 """Properties of effects, and what libraries of OBJ call them."""
 _TAKEN = Taken(rows_of("dae"))
@@ -38,7 +53,8 @@ _LUMINANCE = (0.212671, 0.715160, 0.072169)  # as COLLADA has it
 def read_dae(data: bytes, path: str | None, limits: Limits) -> Polygons:
     collada = imported("collada", "DAE is read with pycollada", "formats")
     beside = Beside(Path(path).resolve().parent if path else None, limits)
-    with as_library_error("pycollada"), np.errstate(all="ignore"):  # a later check refuses infinite values
+    # A later check refuses infinite values.
+    with as_library_error("pycollada"), np.errstate(all="ignore"):
         prepared, unread = _prepared(data)
         document = collada.Collada(io.BytesIO(prepared), ignore=[collada.common.DaeError])
         scene = _Nodes(collada, beside)
@@ -58,7 +74,10 @@ def read_dae(data: bytes, path: str | None, limits: Limits) -> Polygons:
             if tool.startswith("bsm "):
                 metadata["provenance"] = tool
         metadata |= described(dict(enumerate(scene.materials.values()))) | scene.images
-        errors = [f"unreadable elements ({in_words(error)[:80]})" for error in document.errors[:_MOST_ERRORS]]
+        errors = [
+            f"unreadable elements ({in_words(error)[:80]})"
+            for error in document.errors[:_MOST_ERRORS]
+        ]
         dropped = (*unread, *errors, *scene.absent)
         return replace(joined, metadata={**metadata, **joined.metadata}, dropped=dropped)
 
@@ -129,7 +148,9 @@ class _Nodes:
         """The polygons of a primitive, which may stand in several places."""
         if id(primitive) not in self._shapes:
             index = np.asarray(primitive.index, np.int64).reshape(-1, primitive.index.shape[-1])
-            sizes = np.asarray(getattr(primitive, "vcounts", np.full(len(primitive.index), 3)), np.int64)
+            sizes = np.asarray(
+                getattr(primitive, "vcounts", np.full(len(primitive.index), 3)), np.int64
+            )
             sizes, places = _without_holes(primitive, sizes, index.shape[1])
             vertices = np.asarray(primitive.vertex_index).reshape(-1)[places]
             used, corners = np.unique(vertices, return_inverse=True)
@@ -137,7 +158,9 @@ class _Nodes:
                 raise FormatError(f"a corner has the index {used[0]}, which no vertex has")
             points = np.asarray(primitive.vertex, np.float64)[used]
             columns = _columns(primitive, index[places])
-            self._shapes[id(primitive)] = Part(points, sizes, corners.reshape(-1), columns, np.zeros_like(sizes), "")
+            self._shapes[id(primitive)] = Part(
+                points, sizes, corners.reshape(-1), columns, np.zeros_like(sizes), ""
+            )
         return self._shapes[id(primitive)]
 
     def part(self, primitive: Any, node: Any, matrix: Doubles) -> Part:
@@ -213,7 +236,9 @@ def _without_holes(primitive: Any, sizes: Ints, width: int) -> tuple[Ints, Any]:
     drawn = [element for element in primitive.xmlnode if _tag(element) == "p"]
     if not any("ends" in element.attrib for element in drawn):
         return sizes, slice(None)
-    points = np.asarray(primitive.vertex, np.float64)[np.asarray(primitive.vertex_index).reshape(-1)]
+    points = np.asarray(primitive.vertex, np.float64)[
+        np.asarray(primitive.vertex_index).reshape(-1)
+    ]
     counts: list[int] = []
     places: list[Ints] = []
     for element, size, end in zip(drawn, sizes.tolist(), np.cumsum(sizes).tolist(), strict=True):
@@ -254,5 +279,7 @@ def _columns(primitive: Any, index: Array) -> list[Column]:
                 column = color_column(values[:, :4], "corner")
             else:
                 column = Column(semantic, compact(values), "corner", semantic)
-            columns.append(replace(column, name=f"{semantic}{number or ''}", indices=index[:, offset]))
+            columns.append(
+                replace(column, name=f"{semantic}{number or ''}", indices=index[:, offset])
+            )
     return columns

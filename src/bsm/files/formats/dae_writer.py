@@ -38,7 +38,9 @@ def write_dae(mesh: TriangleMesh, stem: str) -> materials.Written:
     metadata_held.add("name")
     provenance = mesh.metadata.get(PROVENANCE)
     if isinstance(provenance, str):
-        document.assetInfo.contributors.append(collada.asset.Contributor(authoring_tool=one_line(provenance)))
+        document.assetInfo.contributors.append(
+            collada.asset.Contributor(authoring_tool=one_line(provenance))
+        )
         metadata_held.add(PROVENANCE)
     library = materials.Library(mesh, stem)
     texcoord = materials.first(mesh, "texcoord", (2,), "vertex", "corner")
@@ -47,7 +49,9 @@ def write_dae(mesh: TriangleMesh, stem: str) -> materials.Written:
     name = one_line(str(mesh.metadata.get("name") or stem))
     geometry, indices = _add_geometry(collada, document, mesh, name, (normal, texcoord, color))
     numbers = materials.face_numbers(mesh, "material")
-    face_materials = np.zeros(len(mesh.faces), np.int64) if numbers is None else numbers.values[:, 0]
+    face_materials = (
+        np.zeros(len(mesh.faces), np.int64) if numbers is None else numbers.values[:, 0]
+    )
     inputs = _inputs(collada, (normal, texcoord, color))
     symbols = []
     for number in np.unique(face_materials).tolist():
@@ -62,17 +66,27 @@ def write_dae(mesh: TriangleMesh, stem: str) -> materials.Written:
             for word in material_words
             if not is_mtl(word) or _holds(word, words, library.images)
         }
-        symbols.append(collada.scene.MaterialNode(symbol, material, inputs=[("UV", "TEXCOORD", "0")]))
+        symbols.append(
+            collada.scene.MaterialNode(symbol, material, inputs=[("UV", "TEXCOORD", "0")])
+        )
     document.geometries.append(geometry)
     node = collada.scene.Node(stem, children=[collada.scene.GeometryNode(geometry, symbols)])
     scene = collada.scene.Scene("scene", [node])
     document.scenes.append(scene)
     document.scene = scene
     data = _as_text(document, geometry)
-    attributes_written = [attribute for attribute in (normal, texcoord, color, numbers) if attribute is not None]
-    unsaid = {name for name in materials.unsaid(mesh.metadata, "MTL") if name.split(".", 2)[2] not in OWN_WORDS}
+    attributes_written = [
+        attribute for attribute in (normal, texcoord, color, numbers) if attribute is not None
+    ]
+    unsaid = {
+        name
+        for name in materials.unsaid(mesh.metadata, "MTL")
+        if name.split(".", 2)[2] not in OWN_WORDS
+    }
     metadata_held = (metadata_held | library.written) - unsaid
-    lost = materials.left_out(mesh, attributes_written, [name for name in mesh.metadata if name not in metadata_held])
+    lost = materials.left_out(
+        mesh, attributes_written, [name for name in mesh.metadata if name not in metadata_held]
+    )
     return materials.Written(data, lost, library.beside)
 
 
@@ -95,7 +109,11 @@ def _say_place(document: Any, mesh: TriangleMesh) -> set[str]:
 
 
 def _add_geometry(
-    collada: Any, document: Any, mesh: TriangleMesh, name: str, attributes: Sequence[Attribute | None]
+    collada: Any,
+    document: Any,
+    mesh: TriangleMesh,
+    name: str,
+    attributes: Sequence[Attribute | None],
 ) -> tuple[Any, Ints]:
     """Return a geometry with its sources, and the indices of its corners, shape (m, 3, inputs)."""
     float_source = collada.source.FloatSource
@@ -116,7 +134,9 @@ def _rows(mesh: TriangleMesh, attribute: Attribute) -> tuple[Doubles, Ints]:
     """Return the values of an attribute, and their numbers at the corners, shape (m, 3)."""
     if attribute.semantic == "color":
         shares = shares_of(at_corners(attribute, mesh.faces))
-        values, corners = np.unique(shares.reshape(-1, shares.shape[-1]), axis=0, return_inverse=True)
+        values, corners = np.unique(
+            shares.reshape(-1, shares.shape[-1]), axis=0, return_inverse=True
+        )
         return np.asarray(values, np.float64), corners.reshape(mesh.faces.shape)
     joined = materials.without_seams(attribute, mesh)
     indices = mesh.faces if joined.indices is None else joined.indices
@@ -129,7 +149,9 @@ def _inputs(collada: Any, attributes: Sequence[Attribute | None]) -> Any:
     inputs.addInput(0, "VERTEX", "#positions")
     offset = 1
     for (meaning, source), attribute in zip(
-        (("NORMAL", "#normals"), ("TEXCOORD", "#texcoords"), ("COLOR", "#colors")), attributes, strict=True
+        (("NORMAL", "#normals"), ("TEXCOORD", "#texcoords"), ("COLOR", "#colors")),
+        attributes,
+        strict=True,
     ):
         if attribute is not None:
             inputs.addInput(offset, meaning, source, "0" if meaning == "TEXCOORD" else None)
@@ -149,9 +171,19 @@ def _holds(word: str, words: Material, images: dict[int, str]) -> bool:
     return word in ("name", "d", "doubleSided")
 
 
-def _add_material(collada: Any, document: Any, number: int, words: Material, images: dict[int, str]) -> Any:
+def _add_material(
+    collada: Any, document: Any, number: int, words: Material, images: dict[int, str]
+) -> Any:
     """Add a material and its effect to a document."""
-    unsaid = ("reflective", "reflectivity", "transparent", "ambient", "specular", "emission", "shininess")
+    unsaid = (
+        "reflective",
+        "reflectivity",
+        "transparent",
+        "ambient",
+        "specular",
+        "emission",
+        "shininess",
+    )
     properties: dict[str, Any] = {"diffuse": (1.0, 1.0, 1.0, 1.0), **dict.fromkeys(unsaid)}
     for word, name in COLORS.items():
         color = as_numbers(words.get(word, ""))
@@ -165,10 +197,16 @@ def _add_material(collada: Any, document: Any, number: int, words: Material, ima
     for word, name in IMAGES.items():
         place = words.get(word)
         if isinstance(place, int) and place in images:
-            properties[name] = _add_image(collada, document, f"{number}-{name}", images[place], parameters)
+            properties[name] = _add_image(
+                collada, document, f"{number}-{name}", images[place], parameters
+            )
     opacity = as_numbers(words.get("d", ""))
     if len(opacity) == 1:
-        properties |= {"transparent": (1.0, 1.0, 1.0, 1.0), "transparency": opacity[0], "opaque_mode": "A_ONE"}
+        properties |= {
+            "transparent": (1.0, 1.0, 1.0, 1.0),
+            "transparency": opacity[0],
+            "opaque_mode": "A_ONE",
+        }
     properties["double_sided"] = bool(words.get("doubleSided"))
     effect = collada.material.Effect(f"effect-{number}", parameters, "phong", **properties)
     name = one_line(str(words.get("name") or f"material {number}"))
@@ -194,7 +232,9 @@ def _as_text(document: Any, geometry: Any) -> bytes:
     for source in geometry.sourceById.values():
         if hasattr(source, "data"):
             array = source.xmlnode.find("{*}float_array")
-            array.text = " ".join(map(repr, np.asarray(source.data, np.float64).reshape(-1).tolist()))
+            array.text = " ".join(
+                map(repr, np.asarray(source.data, np.float64).reshape(-1).tolist())
+            )
     file = io.BytesIO()
     document.xmlnode.write(file, encoding="utf-8", xml_declaration=True)
     return file.getvalue()

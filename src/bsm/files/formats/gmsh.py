@@ -23,7 +23,15 @@ from bsm.files.formats.metadata import named
 from bsm.files.formats.polygons import Polygons
 from bsm.files.motion.folder import read_steps
 from bsm.files.motion.frames import Frames, Wanted
-from bsm.files.parsing import AS_NUMBERS, Doubles, Ints, as_format_error, as_integers, ranges, require_counts
+from bsm.files.parsing import (
+    AS_NUMBERS,
+    Doubles,
+    Ints,
+    as_format_error,
+    as_integers,
+    ranges,
+    require_counts,
+)
 
 _VALUES = ("NodeData", "ElementData")
 _MOST_GROUPS = 64  # that become attributes
@@ -98,8 +106,14 @@ class _Gmsh:
         with as_format_error("Gmsh"):
             version, binary, size = header.split()
             self._version, self._binary = float(version), binary == b"1"
-            if size != b"8" or not 2 <= self._version < 5 or (self._binary and one[:4] != b"\1\0\0\0"):
-                raise FormatError(f"this file has the version {version.decode()}, or numbers of another size; {_WAY}")
+            if (
+                size != b"8"
+                or not 2 <= self._version < 5
+                or (self._binary and one[:4] != b"\1\0\0\0")
+            ):
+                raise FormatError(
+                    f"this file has the version {version.decode()}, or numbers of another size; {_WAY}"
+                )
             numbers, self.points = self._nodes()
             require_counts(limits, vertices=len(numbers))
             nodes = Numbering(numbers)
@@ -128,12 +142,15 @@ class _Gmsh:
         """Return the sections of a file by their names; refuse those that are there twice."""
         sections_by_name = dict[str, list[bytes]]()
         line, counted = 1, 0
-        for match in re.finditer(rb"^\$(?!End)(\w+)[^\n]*\n(.*?)(?=^\$End\1|\Z)", data, re.M | re.S):
+        for match in re.finditer(
+            rb"^\$(?!End)(\w+)[^\n]*\n(.*?)(?=^\$End\1|\Z)", data, re.M | re.S
+        ):
             line += data.count(b"\n", counted, match.start())
             counted = match.start()
             name, content = match[1].decode(), match[2]
             sections = sections_by_name.setdefault(name, [])
-            if sections and name not in _VALUES and content not in sections:  # Gmsh writes all again for each view
+            # Gmsh writes all again for each view.
+            if sections and name not in _VALUES and content not in sections:
                 raise self.keywords.refusal(f"another ${name}", line)
             sections.append(content)
             self.keywords.leave(name, line)
@@ -220,7 +237,9 @@ class _Gmsh:
         remaining, section = self._counted("Elements")
         if not self._binary:
             flat = section.take("i8", len(section))
-            for table in runs(flat, lambda row: (3 + int(row[2]) + self._width(int(row[1])), slice(1, 3))):
+            for table in runs(
+                flat, lambda row: (3 + int(row[2]) + self._width(int(row[1])), slice(1, 3))
+            ):
                 _, kind, tags = table[0, :3].tolist()
                 yield self._cell(kind, tags, np.delete(table, [1, 2], axis=1))
             return
@@ -235,7 +254,9 @@ class _Gmsh:
 
     def _width(self, kind: int) -> int:
         if kind not in _TYPES:
-            raise FormatError(f"elements of the type {kind} are not read here; gmsh FILE.msh -order 2 -save -o NEW.msh")
+            raise FormatError(
+                f"elements of the type {kind} are not read here; gmsh FILE.msh -order 2 -save -o NEW.msh"
+            )
         return int(re.sub(r"\D", "", _TYPES[kind]))
 
     def _cell(self, kind: int, tags: int, rows: Any) -> _Cells:
@@ -362,7 +383,8 @@ class _Gmsh:
             is_in = np.zeros((len(alike), len(kinds)), np.uint8)
             is_in[cells, groups] = 1
             is_in = is_in[alike[is_kept]]
-            not_in, places = np.unique(1 - is_in, axis=0, return_inverse=True)  # the first group first
+            # The first group first.
+            not_in, places = np.unique(1 - is_in, axis=0, return_inverse=True)
             together = [" + ".join(np.array(group_names)[row == 0].tolist()) for row in not_in]
             for (dimension, _), name, marks in zip(kinds, group_names, is_in.T, strict=True):
                 if dimension > 1:
@@ -378,14 +400,21 @@ class _Gmsh:
         columns: dict[str, Any] = {}
         if len(together) > 1:
             columns["group"] = places.ravel().astype(np.int32)
-        notes = [f"faces are in several groups, each of which is an attribute: {', '.join(masks)}"] if masks else []
+        notes = (
+            [f"faces are in several groups, each of which is an attribute: {', '.join(masks)}"]
+            if masks
+            else []
+        )
         return metadata, columns | masks, lost, notes
 
 
 def _names_in(section: bytes) -> dict[tuple[int, int], str]:
     """Return the names of physical groups by their dimensions and numbers."""
     rows = re.findall(rb'^[ \t]*(\d{1,9})[ \t]+(\d{1,9})[ \t]+"(.*)"', section, re.M)
-    return {(int(dimension), int(number)): name.decode("utf-8", "replace") for dimension, number, name in rows}
+    return {
+        (int(dimension), int(number)): name.decode("utf-8", "replace")
+        for dimension, number, name in rows
+    }
 
 
 def read_gmsh_mesh(data: bytes, limits: Limits) -> Polygons:

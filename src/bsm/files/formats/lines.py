@@ -21,24 +21,35 @@ class Keywords:
 
     def __init__(self, file_format: str, way: str) -> None:
         rows = csv.DictReader(Path(__file__).with_name("keywords.csv").read_text().splitlines())
-        self._harmless = [word for row in rows if row["format"] == file_format for word in row["harmless"].split(";")]
+        self._harmless = [
+            word
+            for row in rows
+            if row["format"] == file_format
+            for word in row["harmless"].split(";")
+        ]
         self._way, self.counts = way, Counter[str]()
 
     def leave(self, keyword: str, line: int) -> None:
         """Count a keyword that is not taken, or refuse the file."""
-        if keyword not in self.counts and not any(fnmatch(keyword, word.lstrip("-")) for word in self._harmless):
+        if keyword not in self.counts and not any(
+            fnmatch(keyword, word.lstrip("-")) for word in self._harmless
+        ):
             raise self.refusal(keyword, line)
         self.counts[keyword] += 1
 
     def refusal(self, what: str, line: int) -> FormatError:
         """Return the error of a file with something that may change its shape, its numbers or its values."""
-        return FormatError(f"line {line}: {what} is not read here, and may change the mesh; {self._way}")
+        return FormatError(
+            f"line {line}: {what} is not read here, and may change the mesh; {self._way}"
+        )
 
     @property
     def notes(self) -> tuple[str, ...]:
         """Return the keywords that were left out, with their counts."""
         keywords = [
-            f"{keyword} ({count})" for keyword, count in self.counts.items() if f"-{keyword}" not in self._harmless
+            f"{keyword} ({count})"
+            for keyword, count in self.counts.items()
+            if f"-{keyword}" not in self._harmless
         ]
         return (
             *keywords[:_MOST_NAMED],
@@ -88,9 +99,15 @@ class Numbering:
     def rows(self, references: Ints) -> Ints:
         """Return the rows of things with these numbers."""
         places = np.searchsorted(self._known, references).clip(0, max(len(self) - 1, 0))
-        missing = self._known[places] != references if len(self) else np.ones(np.shape(references), np.bool_)
+        missing = (
+            self._known[places] != references
+            if len(self)
+            else np.ones(np.shape(references), np.bool_)
+        )
         if missing.any():
-            raise MeshError(f"{self._what} {np.asarray(references)[missing].ravel()[0]} is not there")
+            raise MeshError(
+                f"{self._what} {np.asarray(references)[missing].ravel()[0]} is not there"
+            )
         rows: Ints = self._order[places] if len(self) else np.full(np.shape(references), -1)
         return rows
 
@@ -100,4 +117,6 @@ def whole(words: Sequence[str], what: str, line: int) -> Ints:
     try:
         return np.array(words, np.int64)
     except (ValueError, OverflowError) as error:
-        raise FormatError(f"line {line}: {what} has {str(error)[-60:]} in place of a whole number") from None
+        raise FormatError(
+            f"line {line}: {what} has {str(error)[-60:]} in place of a whole number"
+        ) from None

@@ -25,7 +25,14 @@ from bsm.codec.geometry.attributes import Attribute, Domain, Semantic
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.codec.geometry.welding import first_of, group_rows, split_with_origin
 from bsm.files.conventions import shares_of
-from bsm.files.formats.appearance import Material, held_by, is_black_beside_image, lost, one_line, parse_mtl
+from bsm.files.formats.appearance import (
+    Material,
+    held_by,
+    is_black_beside_image,
+    lost,
+    one_line,
+    parse_mtl,
+)
 from bsm.files.pipes import file_beside
 
 Value: TypeAlias = "str | int | float | bytes"
@@ -50,7 +57,9 @@ _SIGNATURES = {
     b"#?RADIANCE": "hdr",
 }
 _TILES = re.compile(r"<(UDIM|UVTILE)>")  # stand for the numbers of several images
-_TGA = re.compile(rb".[\0\1][\1-\3\x09-\x0b].{9}(?!\0\0)..(?!\0\0)..[\x08\x0f\x10\x18\x20].", re.DOTALL)
+_TGA = re.compile(
+    rb".[\0\1][\1-\3\x09-\x0b].{9}(?!\0\0)..(?!\0\0)..[\x08\x0f\x10\x18\x20].", re.DOTALL
+)
 """A TGA has no signature: kinds of its colors, width, height, and bits of a pixel."""
 
 
@@ -63,12 +72,18 @@ def without_materials(metadata: Metadata) -> Metadata:
 def without_names(metadata: Metadata, attributes: Collection[str]) -> Metadata:
     """Metadata without the names of the values of attributes."""
     matches = {name: _NAMES.fullmatch(name) for name in metadata}
-    return {name: metadata[name] for name, match in matches.items() if match is None or match[1] not in attributes}
+    return {
+        name: metadata[name]
+        for name, match in matches.items()
+        if match is None or match[1] not in attributes
+    }
 
 
 def kind_of_image(data: bytes) -> str | None:
     """Return the suffix of an image by its first bytes; None for unknown formats."""
-    known_kind = next((kind for signature, kind in _SIGNATURES.items() if data.startswith(signature)), None)
+    known_kind = next(
+        (kind for signature, kind in _SIGNATURES.items() if data.startswith(signature)), None
+    )
     return known_kind or ("tga" if _TGA.match(data) else None)
 
 
@@ -89,7 +104,9 @@ def names_in(metadata: Metadata, what: str) -> dict[int, str]:
 
 
 def materials_in(metadata: Metadata) -> dict[int, Material]:
-    materials: dict[int, Material] = {number: {"name": name} for number, name in names_in(metadata, "material").items()}
+    materials: dict[int, Material] = {
+        number: {"name": name} for number, name in names_in(metadata, "material").items()
+    }
     for kind, number, name, value in _entries(metadata):
         if kind == "material" and not isinstance(value, bytes):
             materials.setdefault(number, {})[name] = value
@@ -116,7 +133,11 @@ def _entries(metadata: Metadata) -> Iterable[tuple[str, int, str, Value]]:
 
 
 def described(materials: Mapping[int, Material]) -> dict[str, Value]:
-    return {f"material.{n}.{name}": value for n, material in materials.items() for name, value in material.items()}
+    return {
+        f"material.{n}.{name}": value
+        for n, material in materials.items()
+        for name, value in material.items()
+    }
 
 
 # --------------------------------------------------------------------------------------------------- the files beside
@@ -180,7 +201,9 @@ def _add_libraries(
     contents: dict[str, Value], libraries: Sequence[Mapping[str, Material]]
 ) -> tuple[list[str], list[str]]:
     """Add the materials of libraries, the first of each name, those that faces name first; return notes and losses."""
-    numbers = {str(material.get("name", "")): number for number, material in materials_in(contents).items()}
+    numbers = {
+        str(material.get("name", "")): number for number, material in materials_in(contents).items()
+    }
     materials: dict[str, Material] = {}
     for library in reversed(libraries):
         materials |= library
@@ -190,7 +213,9 @@ def _add_libraries(
         notes.append(f"no library has these materials: {', '.join(absent[:_MOST_NAMED])}")
     black = [name for name, material in materials.items() if is_black_beside_image(material)]
     if black:
-        notes.append(f"black beside an image, which other formats get white: {', '.join(black[:_MOST_NAMED])}")
+        notes.append(
+            f"black beside an image, which other formats get white: {', '.join(black[:_MOST_NAMED])}"
+        )
     free = count(max(numbers.values(), default=-1) + 1)
     for name, material in materials.items():
         if name not in numbers:
@@ -210,7 +235,9 @@ def plain_fields(fields: Mapping[str, Any]) -> tuple[dict[str, Value], list[str]
         values = np.asarray(table)
         if values.dtype == np.uint8:
             plain[name] = values.tobytes()
-        elif values.size == 1 and isinstance(value := values.reshape(-1)[0].item(), str | int | float):
+        elif values.size == 1 and isinstance(
+            value := values.reshape(-1)[0].item(), str | int | float
+        ):
             plain[name] = value
         else:
             others.append(name)
@@ -224,7 +251,11 @@ class Beside:
     """The files in the folder of a mesh, each read once; each of them must fit into a section of a stream."""
 
     def __init__(self, folder: Path | None, limits: Limits) -> None:
-        self._folder, self._most, self._left = folder, limits.frame_bytes, _READ * limits.frame_bytes
+        self._folder, self._most, self._left = (
+            folder,
+            limits.frame_bytes,
+            _READ * limits.frame_bytes,
+        )
         self._read: dict[Path, bytes] = {}
 
     def find(self, name: str) -> Path | str:
@@ -260,13 +291,16 @@ def _in_other_case(folder: Path, name: str) -> str:
     spelled_path = Path()
     for part in Path(name).parts:
         with suppress(OSError):
-            names = os.listdir(folder / spelled_path) if ".." not in (part, *spelled_path.parts) else ()
+            names = (
+                os.listdir(folder / spelled_path) if ".." not in (part, *spelled_path.parts) else ()
+            )
             part = next((spelling for spelling in names if spelling.lower() == part.lower()), part)
         spelled_path /= part
     return str(spelled_path)
 
 
-MOST_TEXT = 1 << 13  # characters of a comment; readers of PLY look for the end of a header in its first 64 KiB
+# Characters of a comment; readers of PLY look for the end of a header in its first 64 KiB.
+MOST_TEXT = 1 << 13
 _MOST_BYTES = 1 << 15  # of the remarks of one file
 _MOST_ENTRIES = 1 << 15  # that are taken from a file: a decoder charges work for each
 _ENTRY_BYTES = 16
@@ -312,16 +346,21 @@ def fitting(metadata: Metadata, limit: int) -> tuple[dict[str, Value], dict[str,
     refused: dict[str, str] = {}
     images_first = sorted(metadata, key=lambda name: not isinstance(metadata[name], bytes))
     if beyond := images_first[_MOST_ENTRIES:]:
-        refused[f"{len(beyond)} entries of metadata, {beyond[0]} and others"] = f"there can be {_MOST_ENTRIES}"
+        refused[f"{len(beyond)} entries of metadata, {beyond[0]} and others"] = (
+            f"there can be {_MOST_ENTRIES}"
+        )
     sizes = {name: _size(name, metadata[name]) for name in images_first[:_MOST_ENTRIES]}
     rising = sorted(sizes, key=sizes.__getitem__)
     for name in rising[int((np.cumsum([sizes[name] for name in rising]) <= limit).sum()) :]:
-        refused[name] = f"with its {sizes.pop(name)} bytes the metadata would take more than {limit}"
+        refused[name] = (
+            f"with its {sizes.pop(name)} bytes the metadata would take more than {limit}"
+        )
     return {name: value for name, value in metadata.items() if name in sizes}, refused
 
 
 def _size(name: str, value: Value) -> int:
-    content = value.encode(errors="replace") if isinstance(value, str) else b""  # images: the input pays for them
+    # Images: the input pays for them.
+    content = value.encode(errors="replace") if isinstance(value, str) else b""
     return len(name.encode(errors="replace")) + len(content) + _ENTRY_BYTES
 
 
@@ -337,7 +376,11 @@ class Written:
 
 def unsaid(metadata: Metadata, kind: str) -> list[str]:
     """The names of the words of materials that say more to other programs than a format holds."""
-    return [f"material.{n}.{word}" for n, m in materials_in(metadata).items() for word in lost(m, held_by(kind))]
+    return [
+        f"material.{n}.{word}"
+        for n, m in materials_in(metadata).items()
+        for word in lost(m, held_by(kind))
+    ]
 
 
 def left_out(
@@ -351,12 +394,21 @@ def left_out(
     `in_remarks`: metadata that this library reads back, from remarks or extras, and no other program.
     """
     names = {attribute.name for attribute in attributes if attribute is not None}
-    missing_attributes = [attribute.name for attribute in mesh.attributes if attribute.name not in names]
-    for_others = [f"{phrase} (for programs other than bsm)" for phrase in in_words(in_remarks, mesh.metadata)]
+    missing_attributes = [
+        attribute.name for attribute in mesh.attributes if attribute.name not in names
+    ]
+    for_others = [
+        f"{phrase} (for programs other than bsm)" for phrase in in_words(in_remarks, mesh.metadata)
+    ]
     return (*missing_attributes, *in_words(metadata, mesh.metadata), *for_others)
 
 
-_IN_WORDS = {"d": "opacity", "Tr": "opacity", "map_d": "opacity map", "alphaMode": "kind of opacity"}
+_IN_WORDS = {
+    "d": "opacity",
+    "Tr": "opacity",
+    "map_d": "opacity map",
+    "alphaMode": "kind of opacity",
+}
 _MOST_NAMED = 3
 
 
@@ -384,7 +436,9 @@ def in_words(names: Iterable[str], metadata: Metadata) -> list[str]:
         plural = "s" if len(materials) > 1 else ""
         more = len(materials) - _MOST_NAMED
         ending = f" and {more} more" if more > 0 else ""
-        phrases.append(f"{words_text} of material{plural} {', '.join(materials[:_MOST_NAMED])}{ending}")
+        phrases.append(
+            f"{words_text} of material{plural} {', '.join(materials[:_MOST_NAMED])}{ending}"
+        )
     return phrases
 
 
@@ -405,7 +459,11 @@ def with_none(attributes: Iterable[Attribute]) -> dict[str, npt.NDArray[Any]]:
     values = {name: attribute.values for name, attribute in every.items()}
     for name, attribute in every.items():
         marks = every.get(f"{name}{NONE}")
-        if marks is not None and marks.domain == attribute.domain and attribute.values.dtype.kind == "f":
+        if (
+            marks is not None
+            and marks.domain == attribute.domain
+            and attribute.values.dtype.kind == "f"
+        ):
             values[name] = np.where(values.pop(marks.name) > 0, np.nan, attribute.values)
     return values
 
@@ -415,19 +473,31 @@ def split_at_seams(mesh: TriangleMesh, *seams: Attribute | None) -> TriangleMesh
 
     The vertices of the mesh keep their numbers, and copies follow them.
     """
-    unsplit = [attribute for attribute in mesh.attributes if attribute.domain == "corner" and attribute not in seams]
+    unsplit = [
+        attribute
+        for attribute in mesh.attributes
+        if attribute.domain == "corner" and attribute not in seams
+    ]
     parted = [attribute for attribute in mesh.attributes if attribute not in unsplit]
     split, origin = split_with_origin(replace(mesh, attributes=tuple(parted)))
     is_copy = np.diff(origin, prepend=-1) == 0
     order = np.argsort(is_copy, kind="stable")
     moved = [attribute.taken(order, np.arange(len(mesh.faces))) for attribute in split.attributes]
     faces = np.argsort(order)[split.faces].astype(np.int32)
-    return replace(split, positions=split.positions[order], faces=faces, attributes=(*moved, *unsplit))
+    return replace(
+        split, positions=split.positions[order], faces=faces, attributes=(*moved, *unsplit)
+    )
 
 
-def first(mesh: TriangleMesh, semantic: Semantic, components: Collection[int], *domains: Domain) -> Attribute | None:
+def first(
+    mesh: TriangleMesh, semantic: Semantic, components: Collection[int], *domains: Domain
+) -> Attribute | None:
     """The first attribute of a meaning that is of one of the domains, and has one of the numbers of components."""
-    fits = (a for a in mesh.attributes if a.semantic == semantic and a.domain in domains and a.components in components)
+    fits = (
+        a
+        for a in mesh.attributes
+        if a.semantic == semantic and a.domain in domains and a.components in components
+    )
     return next(fits, None)
 
 
@@ -440,18 +510,24 @@ def without_seams(attribute: Attribute, mesh: TriangleMesh) -> Attribute:
     by_vertex = np.zeros(len(mesh.positions), np.int64)
     by_vertex[mesh.faces] = corners
     if np.array_equal(by_vertex[mesh.faces], corners):
-        return replace(attribute, values=attribute.values[first[by_vertex]], domain="vertex", indices=None)
+        return replace(
+            attribute, values=attribute.values[first[by_vertex]], domain="vertex", indices=None
+        )
     return replace(attribute, values=attribute.values[first], indices=corners.astype(np.int32))
 
 
 def face_numbers(mesh: TriangleMesh, name: str) -> Attribute | None:
     """The attribute of this name, if it is a whole number for each face."""
-    fits = (a for a in mesh.attributes if a.name == name and a.domain == "face" and a.components == 1)
+    fits = (
+        a for a in mesh.attributes if a.name == name and a.domain == "face" and a.components == 1
+    )
     attribute = next(fits, None)
     return attribute if attribute is not None and attribute.values.dtype.kind in "iu" else None
 
 
-def shown_at_vertices(mesh: TriangleMesh) -> tuple[Attribute | None, Attribute | None, Attribute | None]:
+def shown_at_vertices(
+    mesh: TriangleMesh,
+) -> tuple[Attribute | None, Attribute | None, Attribute | None]:
     """The normals, colors and texture coordinates of vertices that other programs show."""
     return (
         first(mesh, "normal", (3,), "vertex"),
@@ -480,7 +556,9 @@ class Library:
                 self.images[number] = one_line(name)
                 self.written.add(f"image.{number}.name")
             elif kind := kind_of_image(data):
-                shared = f"image.{number}.link" in mesh.metadata and re.fullmatch(r"\w[\w .-]*", name)
+                shared = f"image.{number}.link" in mesh.metadata and re.fullmatch(
+                    r"\w[\w .-]*", name
+                )
                 self.images[number] = name if shared else f"{stem}.{number}.{kind}"
                 self.beside[self.images[number]] = data
                 self.written |= {f"image.{number}.{what}" for what in ("data", "name", "link")}

@@ -71,8 +71,12 @@ def read_nastran(data: bytes, path: str | None, limits: Limits) -> Polygons:
 
 def _cards(lines: Sequence[str], keywords: Keywords) -> Iterator[tuple[str, int, list[str]]]:
     """The cards of bulk data: their names, lines and fields."""
-    starts = [place for place, line in enumerate(lines) if re.match(r"BEGIN\b", line.lstrip(), re.I)]
-    if len(starts) > 1 or (starts and not re.match(r"\s*BEGIN(\s+BULK)?$", _without_remark(lines[starts[0]]), re.I)):
+    starts = [
+        place for place, line in enumerate(lines) if re.match(r"BEGIN\b", line.lstrip(), re.I)
+    ]
+    if len(starts) > 1 or (
+        starts and not re.match(r"\s*BEGIN(\s+BULK)?$", _without_remark(lines[starts[0]]), re.I)
+    ):
         raise keywords.refusal(lines[starts[-1]].strip()[:40], starts[-1] + 1)
     first = starts[0] + 1 if starts else 0
     name, begun, fields = "", 0, list[str]()
@@ -138,7 +142,9 @@ def _reals(cards: Sequence[Card]) -> Doubles:
             for card in cards:
                 _reals([card])
         line, row = cards[0]
-        raise FormatError(f"line {line}: {' '.join(row)[:60]!r} are not {len(row)} numbers") from None
+        raise FormatError(
+            f"line {line}: {' '.join(row)[:60]!r} are not {len(row)} numbers"
+        ) from None
 
 
 def _without_repeats(cards: Sequence[Card]) -> list[Card]:
@@ -165,10 +171,15 @@ class _Systems:
     """Coordinate systems, each of which is placed once, after the one that it is in."""
 
     def __init__(
-        self, systems: Mapping[int, tuple[str, Card]], numbers: Numbering, points: Doubles, owners: Ints
+        self,
+        systems: Mapping[int, tuple[str, Card]],
+        numbers: Numbering,
+        points: Doubles,
+        owners: Ints,
     ) -> None:
         self._systems, self._numbers, self._points, self._owners = systems, numbers, points, owners
-        self._axes: dict[int, tuple[Doubles, Doubles]] = {}  # origins, and axes as rows, in basic coordinates
+        # Origins, and axes as rows, in basic coordinates.
+        self._axes: dict[int, tuple[Doubles, Doubles]] = {}
 
     def points(self) -> Doubles:
         """Return all points in basic coordinates."""
@@ -218,7 +229,9 @@ class _Systems:
         y = unit_rows(np.cross(z, c - a)[None])[0]
         if not y.any():
             _, (line, _) = self._systems[number]
-            raise MeshError(f"line {line}: the axes of the coordinate system {number} lie on a line")
+            raise MeshError(
+                f"line {line}: the axes of the coordinate system {number} lie on a line"
+            )
         return a, np.array([np.cross(y, z), y, z])
 
     def _moved(self, rows: Doubles, number: int) -> Doubles:

@@ -24,7 +24,14 @@ from typing import IO, Any, BinaryIO, cast, get_args
 
 import numpy as np
 
-from bsm.bitstream.errors import BsmError, CorruptError, FormatError, LimitError, MeshError, TruncatedError
+from bsm.bitstream.errors import (
+    BsmError,
+    CorruptError,
+    FormatError,
+    LimitError,
+    MeshError,
+    TruncatedError,
+)
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.attributes import MOST_COMPONENTS, Attribute, Domain
@@ -36,7 +43,16 @@ from bsm.files.parsing import AS_NUMBERS, TREE, require_counts, require_inflated
 from bsm.files.pipes import Input, about
 
 # What numpy raises of a header, which it parses as Python.
-_NO_HEADER = (ValueError, TypeError, KeyError, SyntaxError, RecursionError, MemoryError, OverflowError, TokenError)
+_NO_HEADER = (
+    ValueError,
+    TypeError,
+    KeyError,
+    SyntaxError,
+    RecursionError,
+    MemoryError,
+    OverflowError,
+    TokenError,
+)
 _MOST_HEADER = 1 << 16
 NPY = b"\x93NUMPY"
 Kind = np.dtype[Any]
@@ -83,7 +99,9 @@ def read_npy(file: Input, bound: str = "vertices", limits: Limits = DEFAULT_LIMI
         raise FormatError("this is not a sequence of npy arrays")
     shape, fortran, kind = read_header(file)
     if len(shape) != 2 or shape[1] != 3:
-        raise FormatError(f"an array of {kind} and shape {shape} is neither faces nor a frame: (n, 3) numbers are")
+        raise FormatError(
+            f"an array of {kind} and shape {shape} is neither faces nor a frame: (n, 3) numbers are"
+        )
     require_counts(limits, **{bound: shape[0]})
     size = math.prod(shape) * kind.itemsize
     data = file.read(size)
@@ -121,7 +139,9 @@ def _reading(name: str) -> Iterator[None]:
     except BsmError:
         raise
     except KeyError:
-        raise FormatError(f"the npz file has no array {name}; it needs positions and faces") from None
+        raise FormatError(
+            f"the npz file has no array {name}; it needs positions and faces"
+        ) from None
     except _DAMAGE as error:
         raise CorruptError(f"the array {name} cannot be read: {error}") from error
     except RuntimeError as error:  # a password, or an unknown compression
@@ -144,7 +164,9 @@ class NpzArray:
     def read_array(self) -> Array:
         """All numbers; `LimitError` beyond 4 GiB."""
         if self.size > _MAX_BYTES:
-            raise LimitError(f"the array {self._name} takes {self.size} bytes; the limit is {_MAX_BYTES}")
+            raise LimitError(
+                f"the array {self._name} takes {self.size} bytes; the limit is {_MAX_BYTES}"
+            )
         values = self._taken(self.shape)
         with _reading(self._name):
             if self._entry.read(1):  # zipfile also checks the sum of an entry at its end
@@ -155,7 +177,9 @@ class NpzArray:
         """Yield the array entry by entry of the first index."""
         # In that order a frame lies scattered over the whole array, which would have to be held.
         if self._fortran:
-            raise MeshError(f"the array {self._name} is in Fortran's order; save it with numpy.ascontiguousarray")
+            raise MeshError(
+                f"the array {self._name} is in Fortran's order; save it with numpy.ascontiguousarray"
+            )
         for _ in range(self.shape[0]):
             yield self._taken(self.shape[1:])
 
@@ -183,7 +207,9 @@ def _require_shapes(archive: zipfile.ZipFile, compressed: int, limits: Limits) -
         frames, *shape_of_frame = shape
         shape = tuple(shape_of_frame)
         if 0 in positions.shape or shape[1] != 3:
-            raise MeshError(f"this npz file holds {frames} frames of shape {shape}; (n, 3) numbers are a frame")
+            raise MeshError(
+                f"this npz file holds {frames} frames of shape {shape}; (n, 3) numbers are a frame"
+            )
     numbers, corners = math.prod(shape), math.prod(faces.shape)
     require_counts(limits, frames=frames, vertices=numbers // 3, faces=corners // 3)
     size = max(positions.size // max(frames, 1), AS_NUMBERS * numbers)
@@ -198,10 +224,14 @@ def read_npz(data: bytes, limits: Limits) -> Polygons:
         frames, inflated = _require_shapes(archive, len(data), limits)
         if frames:
             raise MeshError(f"this npz file holds a sequence of {frames} frames, not one mesh")
-        mesh = TriangleMesh(NpzArray(archive, "positions").read_array(), NpzArray(archive, "faces").read_array())
+        mesh = TriangleMesh(
+            NpzArray(archive, "positions").read_array(), NpzArray(archive, "faces").read_array()
+        )
         extras = _beside(archive, mesh, len(data), limits, inflated)
     sizes, corners = np.full(len(mesh.faces), 3), mesh.faces.astype(np.int64).reshape(-1)
-    return Polygons(mesh.positions, sizes, corners, (), extras.dropped, tuple(extras.columns), extras.metadata)
+    return Polygons(
+        mesh.positions, sizes, corners, (), extras.dropped, tuple(extras.columns), extras.metadata
+    )
 
 
 _PER_MOVING_BYTE = 5
@@ -227,19 +257,32 @@ class _Beside:
 
 
 def _beside(
-    archive: zipfile.ZipFile, mesh: TriangleMesh, compressed: int, limits: Limits, inflated: int, frames: int = 0
+    archive: zipfile.ZipFile,
+    mesh: TriangleMesh,
+    compressed: int,
+    limits: Limits,
+    inflated: int,
+    frames: int = 0,
 ) -> _Beside:
     """Check shapes before numbers are read; for a sequence, with its number of frames."""
     extras, frame_bytes, vertices = _Beside(), 0, len(mesh.positions)
     most_rows = max(vertices, 3 * len(mesh.faces))
     names = dict.fromkeys(name.removesuffix(".npy") for name in archive.namelist())
-    indices = {name for name in names if name.endswith("/indices") and name.removesuffix("/indices") in names}
+    indices = {
+        name
+        for name in names
+        if name.endswith("/indices") and name.removesuffix("/indices") in names
+    }
     others = [name for name in names if name not in ("positions", "faces", *indices)]
     for number, name in enumerate(others):
         extras.unread.append(name)  # until it is taken
         with suppress(MeshError, FormatError):  # no numbers
             array = NpzArray(archive, name)
-            if frames and array.shape[:2] == (frames, vertices) and math.prod(array.shape[2:]) <= MOST_COMPONENTS:
+            if (
+                frames
+                and array.shape[:2] == (frames, vertices)
+                and math.prod(array.shape[2:]) <= MOST_COMPONENTS
+            ):
                 frame_bytes += _PER_MOVING_BYTE * array.size // frames
                 require_inflated(frame_bytes, compressed, limits, vertices)
                 if len(extras.moving) < limits.attributes:
@@ -247,9 +290,13 @@ def _beside(
                 continue
             is_metadata = name == "metadata"
             # An archive may name a million arrays: only so many are opened.
-            if number > 2 * limits.attributes or not (is_metadata or max(array.shape, default=0) <= most_rows):
+            if number > 2 * limits.attributes or not (
+                is_metadata or max(array.shape, default=0) <= most_rows
+            ):
                 continue
-            of_corners = NpzArray(archive, f"{name}/indices") if f"{name}/indices" in indices else None
+            of_corners = (
+                NpzArray(archive, f"{name}/indices") if f"{name}/indices" in indices else None
+            )
             inflated += array.size * TREE if is_metadata else array.size
             if of_corners is not None:
                 inflated += AS_NUMBERS * math.prod(of_corners.shape)
@@ -266,7 +313,9 @@ def _beside(
     return extras
 
 
-def column_of(name: str, values: Array, mesh: TriangleMesh, of_corners: NpzArray | None) -> Column | None:
+def column_of(
+    name: str, values: Array, mesh: TriangleMesh, of_corners: NpzArray | None
+) -> Column | None:
     """An array as the column that its name or its shape tells; None: it is of nothing here."""
     vertices, faces = len(mesh.positions), len(mesh.faces)
     domain, _, short_name = name.partition("/")
@@ -288,10 +337,16 @@ def column_of(name: str, values: Array, mesh: TriangleMesh, of_corners: NpzArray
         values = values.reshape(-1, values.shape[2])
     if values.ndim == 1:
         values = values[:, None]
-    if values.ndim != 2 or not 1 <= values.shape[1] <= MOST_COMPONENTS or rows[domain] != len(values):
+    if (
+        values.ndim != 2
+        or not 1 <= values.shape[1] <= MOST_COMPONENTS
+        or rows[domain] != len(values)
+    ):
         return None
     native = values.astype(values.dtype.newbyteorder("="))
-    return Column(short_name, native, cast(Domain, domain), meaning_of(short_name, values.shape[1]), indices)
+    return Column(
+        short_name, native, cast(Domain, domain), meaning_of(short_name, values.shape[1]), indices
+    )
 
 
 def _parse_metadata(data: bytes) -> Metadata:
@@ -304,7 +359,14 @@ def _parse_metadata(data: bytes) -> Metadata:
             if not isinstance(value, str | int | float | bytes):
                 raise ValueError(f"{name} is neither a text nor a number")
             metadata[name] = value
-    except (ValueError, AttributeError, KeyError, TypeError, RecursionError, binascii.Error) as error:
+    except (
+        ValueError,
+        AttributeError,
+        KeyError,
+        TypeError,
+        RecursionError,
+        binascii.Error,
+    ) as error:
         raise CorruptError(f"the metadata of the npz file are invalid: {error}") from error
     return metadata
 
@@ -330,7 +392,9 @@ def _arrays_of(attributes: Iterable[Attribute]) -> dict[str, Array]:
         # Without the values of no corner: there may be no more of them than corners.
         used, indices = np.unique(attribute.indices, return_inverse=True)
         arrays[name] = attribute.values[used]
-        arrays[f"{name}/indices"] = indices.reshape(attribute.indices.shape).astype(attribute.indices.dtype)
+        arrays[f"{name}/indices"] = indices.reshape(attribute.indices.shape).astype(
+            attribute.indices.dtype
+        )
     return arrays
 
 
@@ -357,7 +421,9 @@ def open_npz_sequence(
             arrays = {"positions": np.asarray(frame, "<f8"), **_arrays_of(shared.attributes())}
             for name, values in arrays.items():
                 of_first = first.setdefault(name, values)
-                if name not in moving and (name == "positions" or not np.array_equal(values, of_first)):
+                if name not in moving and (
+                    name == "positions" or not np.array_equal(values, of_first)
+                ):
                     moving[name] = waiting.enter_context(tempfile.TemporaryFile())
                     # Until now the values were those of the first frame, and so they were for all frames before.
                     for _ in range(frames):
@@ -380,7 +446,11 @@ def open_npz_sequence(
                 if name not in moving:
                     np.lib.format.write_array(entry, values)
                     continue
-                header = {"descr": values.dtype.str, "fortran_order": False, "shape": (frames, *values.shape)}
+                header = {
+                    "descr": values.dtype.str,
+                    "fortran_order": False,
+                    "shape": (frames, *values.shape),
+                }
                 np.lib.format.write_array_header_1_0(entry, header)
                 moving[name].seek(0)
                 shutil.copyfileobj(moving[name], entry)
@@ -405,14 +475,24 @@ def read_archive(source: Input, limits: Limits) -> Frames | None:
         extras = _beside(opened, mesh, compressed, limits, inflated, count)
     faces = np.arange(len(mesh.faces))
     corners = np.arange(3 * len(faces)).reshape(-1, 3)
-    still, _, refused = attributes_of(extras.columns, len(mesh.positions), len(faces), corners, faces)
+    still, _, refused = attributes_of(
+        extras.columns, len(mesh.positions), len(faces), corners, faces
+    )
     extras.unread.extend(refused)
     notes = (f"left out: {', '.join(extras.dropped)}",) if extras.unread else ()
     meshes, attributes = None, still
     if extras.moving:
         meshes = _with_attributes(archive, mesh.faces, still, extras.moving)
         attributes = next(_with_attributes(archive, mesh.faces, still, extras.moving)).attributes
-    return Frames(mesh.faces, count, _positions(archive), attributes, notes, metadata=extras.metadata, meshes=meshes)
+    return Frames(
+        mesh.faces,
+        count,
+        _positions(archive),
+        attributes,
+        notes,
+        metadata=extras.metadata,
+        meshes=meshes,
+    )
 
 
 def _positions(archive: str | BinaryIO) -> Iterator[Positions]:
@@ -428,7 +508,9 @@ def _with_attributes(
         with about(f"frame {number}"):
             for name, array in zip(moving, arrays):
                 values = array.astype(array.dtype.newbyteorder("="))
-                attributes.append(Attribute(name, values, semantic=meaning_of(name, values[0].size)))
+                attributes.append(
+                    Attribute(name, values, semantic=meaning_of(name, values[0].size))
+                )
             mesh = TriangleMesh(positions, faces, tuple(attributes))
         yield mesh
 

@@ -17,7 +17,15 @@ from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.files.conventions import shares_of
 from bsm.files.formats import metadata as materials
 from bsm.files.formats.appearance import is_mtl, one_line, text_of, write_mtl
-from bsm.files.formats.polygons import PLURALS, Column, Polygons, color_column, compact, grouped, polygon_normals
+from bsm.files.formats.polygons import (
+    PLURALS,
+    Column,
+    Polygons,
+    color_column,
+    compact,
+    grouped,
+    polygon_normals,
+)
 from bsm.files.parsing import (
     Doubles,
     EvenRows,
@@ -38,21 +46,27 @@ _KNOWN = {b"", b"mtllib", *_NUMBERS, *(keyword.encode() for keyword in STATES.va
 _COLORS = 3  # numbers of a color that every reader takes; some count a fourth as a coordinate
 _COUNTED = {"vertices": b"\nv ", "faces": b"\nf "}
 _FEW = 8
-_OF_EXPORTERS = re.compile(r"(?i)\W*(\d+ |object|group|mesh|material|vert|texture|normal|face|end|total|smooth|$)")
+_OF_EXPORTERS = re.compile(
+    r"(?i)\W*(\d+ |object|group|mesh|material|vert|texture|normal|face|end|total|smooth|$)"
+)
 """Comments amid the data that exporters write."""
 _MOST_NAME = 1 << 10  # characters: a name is repeated wherever a group of faces begins
 _MOST_NUMBERS = 3  # of a texture coordinate or a normal
 _NOWHERE = _kernels.NO_REFERENCE  # the index of a corner without a texture coordinate or normal
-_NOTHING = (*3 * [((0, 0), np.float64)], *4 * [(0, np.int64)], *2 * [((0, 0), np.int64)])  # while lines are counted
+# While lines are counted.
+_NOTHING = (*3 * [((0, 0), np.float64)], *4 * [(0, np.int64)], *2 * [((0, 0), np.int64)])
 _ENDS = (b"", b"\n")  # before the beginning of a line
 
 
-def read_obj(data: bytes, limits: Limits, counts_before: tuple[int, int, int] | None = None) -> Polygons:
+def read_obj(
+    data: bytes, limits: Limits, counts_before: tuple[int, int, int] | None = None
+) -> Polygons:
     """Read an OBJ, or lines of one after some vertices, texture coordinates and normals: their corners, -1 for none,
     may refer to values elsewhere."""
     if b"\0" in data:
         raise FormatError("this is not an OBJ file: it holds binary data")
-    require_counts(limits, **{name: data.count(begin) for name, begin in _COUNTED.items()})  # before lines are objects
+    # Before lines are objects.
+    require_counts(limits, **{name: data.count(begin) for name, begin in _COUNTED.items()})
     text = continued(data)
     before = counts_before or (0, 0, 0)
     lines = _plain_lines(text, before) or _Lines(text, before)
@@ -86,7 +100,9 @@ def read_obj(data: bytes, limits: Limits, counts_before: tuple[int, int, int] | 
         metadata["mtllib"] = "\n".join(libraries)
     metadata |= _comments(data, dropped)
     all_columns = (*columns, *states)
-    return Polygons(sealed(positions), sizes, corners, tuple(notes), tuple(dropped), all_columns, metadata)
+    return Polygons(
+        sealed(positions), sizes, corners, tuple(notes), tuple(dropped), all_columns, metadata
+    )
 
 
 def _colors(points: Rows, dropped: list[str]) -> list[Column]:
@@ -152,7 +168,9 @@ class _PlainLines:
         self._places = np.empty(corners, np.int64), places_of_texcoords, places_of_normals
         lines, hard = np.empty((others, 3), np.int64), np.empty((words, 4), np.int64)
         arrays = (*tables, self.sizes, *self._places, lines, hard)
-        _kernels.scan_obj(np.frombuffer(text, np.uint8), counts_before, True, np.empty_like(counts), arrays)
+        _kernels.scan_obj(
+            np.frombuffer(text, np.uint8), counts_before, True, np.empty_like(counts), arrays
+        )
         for table, place, begin, end in hard.tolist():
             tables[table].reshape(-1)[place] = float(text[begin:end])
         self._rows = dict(zip((b"v", b"vt", b"vn"), tables, strict=True))
@@ -199,7 +217,9 @@ class _Lines:
         self._commented = b"#" in text
 
         polygons = self.values_of(b"f")
-        self.sizes: Ints = np.fromiter((len(line.split()) for line in polygons), np.int64, len(polygons))
+        self.sizes: Ints = np.fromiter(
+            (len(line.split()) for line in polygons), np.int64, len(polygons)
+        )
         self._references = _References(polygons)
         if (self._references.of(0) == 0).any():
             raise MeshError("a face refers to vertex 0, but OBJ files count from 1")
@@ -214,7 +234,9 @@ class _Lines:
 
     def places(self, which: int) -> Ints:
         """Return the indices of corners, from 0 on; a negative one counts back from the last line before the face."""
-        present = np.repeat(self.before_faces(_NUMBERS[which]), self.sizes) + self._counts_before[which]
+        present = (
+            np.repeat(self.before_faces(_NUMBERS[which]), self.sizes) + self._counts_before[which]
+        )
         written = self._references.of(which)
         indices = np.where(written > 0, written - 1, written + present)
         return np.where(written == 0, _NOWHERE, indices)
@@ -225,7 +247,10 @@ class _Lines:
 
     def values_of(self, keyword: bytes) -> list[bytes]:
         """Return the rest of each line with a keyword."""
-        names = [b"".join(self._lines[i].split(None, 1)[1:]) for i in np.flatnonzero(self._are(keyword)).tolist()]
+        names = [
+            b"".join(self._lines[i].split(None, 1)[1:])
+            for i in np.flatnonzero(self._are(keyword)).tolist()
+        ]
         if self._commented and keyword in _NUMBERS:
             return [line.partition(b"#")[0] for line in names]
         return [line.strip() for line in names]
@@ -253,7 +278,10 @@ class _References:
 
 
 def _corner_column(
-    table: Rows, name: Literal["texcoord", "normal"], indices: Ints, flat: tuple[Doubles, Ints, Ints] | None
+    table: Rows,
+    name: Literal["texcoord", "normal"],
+    indices: Ints,
+    flat: tuple[Doubles, Ints, Ints] | None,
 ) -> tuple[list[Column], list[str]]:
     """Return the values of `vt` or `vn` lines, for the corners that have them."""
     missing = indices == _NOWHERE
@@ -270,7 +298,9 @@ def _corner_column(
             more, owner = polygon_normals(*flat), np.repeat(np.arange(len(sizes)), sizes)
         indices = np.where(missing, len(values) + owner, indices)
         values = np.vstack([values, more])
-        notes.append(f"corners without {PLURALS[name]} were given {substitute}: {int(missing.sum())}")
+        notes.append(
+            f"corners without {PLURALS[name]} were given {substitute}: {int(missing.sum())}"
+        )
     return [Column(name, compact(values), "corner", name, indices)], notes
 
 
@@ -315,7 +345,9 @@ def write_obj(mesh: TriangleMesh, stem: str) -> materials.Written:
     numbers = {what: materials.face_numbers(mesh, what) for what in STATES}
     names = {what: _names(mesh, what, attribute) for what, attribute in numbers.items()}
     library = materials.Library(mesh, stem)
-    unsaid = [name for name in materials.unsaid(mesh.metadata, "MTL") if not is_mtl(name.split(".", 2)[2])]
+    unsaid = [
+        name for name in materials.unsaid(mesh.metadata, "MTL") if not is_mtl(name.split(".", 2)[2])
+    ]
     described_materials = {n: m for n, m in library.materials.items() if m.keys() - {"name"}}
     mtl = write_mtl(described_materials, names["material"], library.images)
     libraries = str(mesh.metadata.get("mtllib", "")).split("\n")
@@ -343,7 +375,9 @@ def write_obj(mesh: TriangleMesh, stem: str) -> materials.Written:
         if attribute is not None:
             number = " {!r}" if attribute.values.dtype == np.float64 else " {:.9g}"
             joined = materials.without_seams(attribute, mesh)  # VTK shades only these smoothly
-            parts.append(text_table(f"{keyword}{number * attribute.components}\n", joined.values).decode())
+            parts.append(
+                text_table(f"{keyword}{number * attribute.components}\n", joined.values).decode()
+            )
             indices.append(mesh.faces if joined.indices is None else joined.indices)
             corner += "/{}" if keyword == "vt" or texcoord else "//{}"
     columns = np.stack(indices, axis=2).reshape(len(mesh.faces), -1) + 1
@@ -358,7 +392,9 @@ def write_obj(mesh: TriangleMesh, stem: str) -> materials.Written:
     for what, values in states.items():
         ordered = values[order]
         changes = np.flatnonzero(np.diff(ordered, prepend=ordered[0] - 1))
-        before[changes] += [f"{STATES[what]} {names[what][number]}\n" for number in ordered[changes].tolist()]
+        before[changes] += [
+            f"{STATES[what]} {names[what][number]}\n" for number in ordered[changes].tolist()
+        ]
     parts += chain.from_iterable(zip(before.tolist(), faces))
     renamed = [key for key, name in group_metadata.items() if mesh.metadata.get(key, name) != name]
     written_attributes = (color, texcoord, normal, *numbers.values())
@@ -388,7 +424,8 @@ def _names(mesh: TriangleMesh, what: str, attribute: Attribute | None) -> dict[i
     """Return the names of the materials (groups, ...) of the faces, by number; empty if none are known."""
     names = materials.names_in(mesh.metadata, what)
     used = [0] if attribute is None else np.unique(attribute.values).tolist()
-    has = materials.materials_in(mesh.metadata) if what == "material" else {}  # a library may hold some of no face
+    # A library may hold some of no face.
+    has = materials.materials_in(mesh.metadata) if what == "material" else {}
     names_by_number = {number: names.get(number) for number in (*used, *has)}
     if attribute is None and not has and not any(names_by_number.values()):
         return {}

@@ -9,9 +9,25 @@ from bsm.bitstream.errors import FormatError, MeshError
 from bsm.bitstream.limits import Limits
 from bsm.codec.geometry.attributes import Attribute, Semantic
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.files.formats.metadata import Written, first, left_out, parse_remarks, remarks, split_at_seams, unsaid
+from bsm.files.formats.metadata import (
+    Written,
+    first,
+    left_out,
+    parse_remarks,
+    remarks,
+    split_at_seams,
+    unsaid,
+)
 from bsm.files.formats.polygons import Column, Polygons, color_column, compact
-from bsm.files.parsing import Doubles, Ints, Rows, point_row, require_counts, require_lines, text_table
+from bsm.files.parsing import (
+    Doubles,
+    Ints,
+    Rows,
+    point_row,
+    require_counts,
+    require_lines,
+    text_table,
+)
 
 _OFF_HEADER = re.compile(
     rb"\s*(?P<extras>(?:ST|C|N)*)(?P<dimension>4?n?)OFF"
@@ -24,7 +40,9 @@ def read_off(data: bytes, limits: Limits) -> Polygons:
     text = re.sub(rb"#[^\n\r]*", b"", data)
     header = _OFF_HEADER.match(text)
     if header is None:
-        raise FormatError("this is not an OFF file: it does not begin with OFF and the numbers of vertices and faces")
+        raise FormatError(
+            "this is not an OFF file: it does not begin with OFF and the numbers of vertices and faces"
+        )
     if header["dimension"]:
         raise MeshError("the vertices of this OFF file are not three-dimensional")
     if header["binary"]:
@@ -42,15 +60,23 @@ def read_off(data: bytes, limits: Limits) -> Polygons:
         first_behind = polygons.starts + sizes + 1
         colors = polygons.values[first_behind[:, None] + np.arange(min(int(behind[0]), 4))]
         columns.append(
-            color_column(colors, "face", written_whole=_are_whole(colors, lines[vertices : vertices + faces]))
+            color_column(
+                colors, "face", written_whole=_are_whole(colors, lines[vertices : vertices + faces])
+            )
         )
     elif (behind > 0).any():
         dropped.append("colors of faces")  # numbers of a map of colors, or of some faces only
-    metadata = parse_remarks(line.decode(errors="replace") for line in re.findall(rb"^#([^\r\n]*)", data, re.M))
-    return Polygons(points.columns(0, 3), sizes, corners, (), tuple(dropped), tuple(columns), metadata)
+    metadata = parse_remarks(
+        line.decode(errors="replace") for line in re.findall(rb"^#([^\r\n]*)", data, re.M)
+    )
+    return Polygons(
+        points.columns(0, 3), sizes, corners, (), tuple(dropped), tuple(columns), metadata
+    )
 
 
-def _vertex_columns(extras: bytes, points: Rows, lines: Sequence[bytes]) -> tuple[list[Column], list[str]]:
+def _vertex_columns(
+    extras: bytes, points: Rows, lines: Sequence[bytes]
+) -> tuple[list[Column], list[str]]:
     """Normals, colors and texture coordinates, in this order (NC: colors first, by MeshLab); and unknown letters."""
     columns: list[Column] = []
     place = 3
@@ -92,7 +118,9 @@ def write_off(mesh: TriangleMesh, stem: str) -> Written:
     """The text OFF of a mesh: with normals, colors and texture coordinates of vertices, and colors of faces."""
     widths: dict[Semantic, tuple[int, ...]] = {"normal": (3,), "color": (3, 4), "texcoord": (2,)}
     original = mesh
-    mesh = split_at_seams(mesh, *(first(mesh, kind, width, "vertex", "corner") for kind, width in widths.items()))
+    mesh = split_at_seams(
+        mesh, *(first(mesh, kind, width, "vertex", "corner") for kind, width in widths.items())
+    )
     normal, color, texcoord = (first(mesh, kind, width, "vertex") for kind, width in widths.items())
     of_faces = first(mesh, "color", (3, 4), "face")
     comments, omitted = remarks(mesh.metadata)
@@ -100,7 +128,9 @@ def write_off(mesh: TriangleMesh, stem: str) -> Written:
     head = "".join([f"{keyword}\n", *(f"# {line}\n" for line in comments)])
     counts = f"{len(mesh.positions)} {len(mesh.faces)} 0\n"
     point, behind = _row([normal, color, texcoord])
-    points = text_table(point_row("", mesh.positions)[:-1] + point, np.hstack([mesh.positions, *behind]))
+    points = text_table(
+        point_row("", mesh.positions)[:-1] + point, np.hstack([mesh.positions, *behind])
+    )
     face, behind = _row([of_faces])
     columns = [*mesh.faces.T.tolist(), *(column for table in behind for column in table.T.tolist())]
     faces = "".join(map(("3 {} {} {}" + face).format, *columns))

@@ -24,7 +24,9 @@ _NAMING = ("source", "file", "filename")  # attributes of elements, in lower cas
 _IN_HDF = ("vtkhdf", "exo", "ex2", "e", "cgns")
 _HDF = b"\x89HDF\r\n\x1a\n"
 _ADF_LINK = b"LK" + 30 * b" "  # the kind of a node of CGNS without HDF5 that names another file
-_LEADING_OUT = re.compile(r"""(?:^|[\s"'/\\])\.\.(?:[/\\]|\s|$)|(?:^|[\s"'])(?:[/\\]|[A-Za-z]:[/\\])""")
+_LEADING_OUT = re.compile(
+    r"""(?:^|[\s"'/\\])\.\.(?:[/\\]|\s|$)|(?:^|[\s"'])(?:[/\\]|[A-Za-z]:[/\\])"""
+)
 _INCLUDE = re.compile(rb"#\s*(?:include|calc|codeStream)")
 _PIECE, _HEAD = 1 << 20, 1 << 12
 
@@ -48,9 +50,13 @@ def refuse_outside(path: str, kind: str, limits: Limits, *, closed: bool) -> Non
         if is_hdf:
             refuse_outside_hdf(source_path, folder)
         elif (
-            kind == "cgns" and not closed and any(_ADF_LINK in piece for piece in _pieces(source_path, len(_ADF_LINK)))
+            kind == "cgns"
+            and not closed
+            and any(_ADF_LINK in piece for piece in _pieces(source_path, len(_ADF_LINK)))
         ):
-            raise FormatError("this CGNS file links to another one; write it as HDF5, with cgnsconvert -h")
+            raise FormatError(
+                "this CGNS file links to another one; write it as HDF5, with cgnsconvert -h"
+            )
 
 
 def _refuse_in_xml(path: Path, folder: Path, limits: Limits) -> None:
@@ -95,14 +101,18 @@ def _refuse_includes(folder: Path) -> None:
     for path in sorted(folder.rglob("*")):
         if path.is_file() and any(_INCLUDE.search(piece) for piece in _pieces(path, 32)):
             name = path.relative_to(folder)
-            raise FormatError(f"{name} includes other files; write them into it, e.g. with foamDictionary -expand")
+            raise FormatError(
+                f"{name} includes other files; write them into it, e.g. with foamDictionary -expand"
+            )
 
 
 def _refuse_links(folder: Path) -> None:
     """Refuse a folder with links to others: which of its files are read is not known here."""
     for path in sorted(folder.rglob("*")):
         if path.is_symlink() and not path.resolve().is_relative_to(folder):
-            raise FormatError(f"{path.relative_to(folder)} is a link to another folder; put the file in its place")
+            raise FormatError(
+                f"{path.relative_to(folder)} is a link to another folder; put the file in its place"
+            )
 
 
 def _pieces(path: Path, overlap: int) -> Iterator[bytes]:
@@ -132,7 +142,9 @@ def refuse_outside_hdf(path: Path, folder: Path) -> None:
                         target = file_beside(folder, name)
                         if place and not _has(h5py, target, place):
                             # HDF5 would give zeros for it, without a word.
-                            raise FormatError(f"it has no table {place}, which a virtual table shows")
+                            raise FormatError(
+                                f"it has no table {place}, which a virtual table shows"
+                            )
                     if target not in paths:
                         paths.add(target)
                         waiting.append(target)
@@ -151,9 +163,15 @@ def _named_in(h5py: Any, file: Any) -> list[tuple[str, str]]:
             return
         # HDF5 looks for these in the current folder, and not beside the file.
         if item.external:
-            raise FormatError(f"the table {name} is in the file {item.external[0][0]}; write it into the HDF5 file")
+            raise FormatError(
+                f"the table {name} is in the file {item.external[0][0]}; write it into the HDF5 file"
+            )
         sources = item.virtual_sources() if item.is_virtual else ()
-        links.extend((str(source.file_name), str(source.dset_name)) for source in sources if source.file_name != ".")
+        links.extend(
+            (str(source.file_name), str(source.dset_name))
+            for source in sources
+            if source.file_name != "."
+        )
 
     file.visititems_links(see_link)
     file.visititems(see_object)
@@ -180,7 +198,8 @@ def layers_inside(pxr: Any, path: str) -> list[Any]:
             if not target or target in paths:
                 continue
             paths.add(target)
-            with suppress(pxr.Tf.ErrorException):  # the stage says which of its layers cannot be read
+            # The stage says which of its layers cannot be read.
+            with suppress(pxr.Tf.ErrorException):
                 opened.append(pxr.Sdf.Layer.FindOrOpen(target))
     return opened
 
@@ -205,14 +224,18 @@ def _layers_named_in(pxr: Any, layer: Any) -> Iterator[str]:
 def _resolved(pxr: Any, layer: Any, name: str, folder: Path) -> str:
     """Return where a layer is that another one names, perhaps in a package; "" if it is not there."""
     if name.startswith("`"):
-        raise FormatError("the name of a layer is an expression here; flatten the stage, e.g. with usdcat --flatten")
+        raise FormatError(
+            "the name of a layer is an expression here; flatten the stage, e.g. with usdcat --flatten"
+        )
     plain, _ = pxr.Sdf.Layer.SplitIdentifier(name)
     anchored = pxr.Sdf.ComputeAssetPathRelativeToLayer(layer, plain) if plain else ""
     resolver = pxr.Ar.GetResolver()
     resolved = str(resolver.Resolve(anchored)) if anchored else ""
     if resolved:
         is_packed = pxr.Ar.IsPackageRelativePath(resolved)
-        file_beside(folder, pxr.Ar.SplitPackageRelativePathOuter(resolved)[0] if is_packed else resolved)
+        file_beside(
+            folder, pxr.Ar.SplitPackageRelativePathOuter(resolved)[0] if is_packed else resolved
+        )
     return resolved
 
 

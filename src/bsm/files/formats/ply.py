@@ -15,8 +15,25 @@ from bsm.codec.geometry.attributes import MOST_COMPONENTS, Attribute, Domain, Se
 from bsm.codec.geometry.mesh import Metadata, NoFacesError, TriangleMesh
 from bsm.files.formats import metadata as formats
 from bsm.files.formats.appearance import appearance, one_line, refers_to_image, text_of
-from bsm.files.formats.polygons import PLURALS, Array, Column, Polygons, color_column, meaning_of, unused_name
-from bsm.files.parsing import Doubles, Ints, Rows, as_integers, ranges, require_counts, require_lines, single_suffices
+from bsm.files.formats.polygons import (
+    PLURALS,
+    Array,
+    Column,
+    Polygons,
+    color_column,
+    meaning_of,
+    unused_name,
+)
+from bsm.files.parsing import (
+    Doubles,
+    Ints,
+    Rows,
+    as_integers,
+    ranges,
+    require_counts,
+    require_lines,
+    single_suffices,
+)
 
 _WRITTEN_TYPES = {
     "char": "i1", "uchar": "u1", "short": "i2", "ushort": "u2", "int": "i4", "uint": "u4", "float": "f4",
@@ -34,7 +51,8 @@ _LONGEST = 1 << 53  # items of a list in a text
 _COUNTED = {"vertex": "vertices", "face": "faces"}
 _MAX_PROPERTIES = 256  # of one element: rows are walked once for each list
 COMMENTS = ("comment", "obj_info")  # what a line begins with that anybody may write anything in
-IMAGE = "TextureFile"  # a comment that begins so names an image; their numbers are those of the property texnumber
+# A comment that begins so names an image; their numbers are those of the property texnumber.
+IMAGE = "TextureFile"
 
 
 @dataclass(frozen=True)
@@ -55,7 +73,9 @@ class Element:
     properties: tuple[Property, ...]
 
     def index(self, *names: str) -> int:
-        return next((place for place, column in enumerate(self.properties) if column.name in names), -1)
+        return next(
+            (place for place, column in enumerate(self.properties) if column.name in names), -1
+        )
 
     @property
     def repeated(self) -> list[str]:
@@ -94,7 +114,9 @@ class PlyHeader:
         for keyword in COMMENTS:
             lines: list[str] = []
             for line_keyword, line in self.comments:
-                is_free = line and not line.startswith(f"{IMAGE} ") and not formats.parse_remarks([line])
+                is_free = (
+                    line and not line.startswith(f"{IMAGE} ") and not formats.parse_remarks([line])
+                )
                 if line_keyword == keyword and is_free:
                     lines.append(line)
             if lines:
@@ -114,7 +136,9 @@ def parse_header(data: bytes) -> PlyHeader:
     if begin is None:
         raise FormatError("this is not a PLY file: it does not begin with ply")
     # A line that ends in \r\n may be the first of the header to do so; old Macintosh files have only \r.
-    end = re.compile(rb"[\r\n][ \t]*end_header[ \t]*(?:\r?\n|\r|\Z)").search(data, begin.end() - 1, MOST_HEADER)
+    end = re.compile(rb"[\r\n][ \t]*end_header[ \t]*(?:\r?\n|\r|\Z)").search(
+        data, begin.end() - 1, MOST_HEADER
+    )
     if end is None:
         raise TruncatedError(f"the PLY header has no end_header in its first {MOST_HEADER} bytes")
     size = end.end()
@@ -139,7 +163,8 @@ def parse_header(data: bytes) -> PlyHeader:
                     _extend(elements, Property(name, _TYPES[kind], _TYPES[length]))
                 case ["property", kind, name]:
                     _extend(elements, Property(name, _TYPES[kind]))
-                case [word, *_] if word not in ("format", "element", "property"):  # a comment, to other programs
+                # A comment, to other programs.
+                case [word, *_] if word not in ("format", "element", "property"):
                     comments.append(("comment", line.strip()))
                 case _:
                     raise KeyError
@@ -174,7 +199,9 @@ def tables_of(header: PlyHeader, body: bytes) -> "dict[str, _Table]":
         tables[element.name] = table
         begin = table.walk(0)[2]
     if text is not None and begin < raw.size:
-        raise MeshError(f"the rows of this PLY file have {(raw.size - begin) // 8} numbers more than its header says")
+        raise MeshError(
+            f"the rows of this PLY file have {(raw.size - begin) // 8} numbers more than its header says"
+        )
     return tables
 
 
@@ -209,7 +236,9 @@ class _Table:
         # A view of the bytes: indices of all of them would take eight times the memory of the file.
         if len(starts) and (steps == step).all() and (sizes == sizes[0]).all():  # as of most files
             shape = (len(starts), int(sizes[0]))
-            values = np.ndarray(shape, kind, self.raw.data, int(starts[0]), (step, kind.itemsize)).reshape(-1)
+            values = np.ndarray(
+                shape, kind, self.raw.data, int(starts[0]), (step, kind.itemsize)
+            ).reshape(-1)
         else:
             items: npt.NDArray[np.uint8] = self.raw[ranges(starts, sizes * kind.itemsize)]
             values = items.view(kind)
@@ -222,17 +251,26 @@ class _Table:
         for column in self.element.properties:
             length = self._size(column.length) if column.length else 0
             widths.append((length, self._size(column.type)))
-        count = self.element.count if widths else 0  # rows without properties take no bytes, however many they are
+        # Rows without properties take no bytes, however many they are.
+        count = self.element.count if widths else 0
         # Every row is at least as long as its numbers and the lengths of its lists.
         least = sum(length or width for length, width in widths)
         missing = self.begin + count * least - len(self.raw)
         if missing > 0:
-            raise TruncatedError(f"the PLY file is cut short: its header claims {missing} bytes more than there are")
+            raise TruncatedError(
+                f"the PLY file is cut short: its header claims {missing} bytes more than there are"
+            )
         if not any(length for length, _ in widths):
             first = self.begin + sum(width for _, width in widths[:place])
-            return first + least * np.arange(count), np.ones(count, np.int64), self.begin + least * count
+            return (
+                first + least * np.arange(count),
+                np.ones(count, np.int64),
+                self.begin + least * count,
+            )
         starts, sizes = np.zeros((2, count), np.int64)
-        end = _kernels.walk_rows(self.raw, self.begin, np.array(widths), place, self.order == ">", starts, sizes)
+        end = _kernels.walk_rows(
+            self.raw, self.begin, np.array(widths), place, self.order == ">", starts, sizes
+        )
         if end < 0:
             raise TruncatedError("the PLY file is cut short: a list runs over its end", offset=-end)
         return starts, sizes, end
@@ -269,7 +307,11 @@ def read_ply(data: bytes, limits: Limits) -> Polygons:
     """Read a PLY with points and faces, of any byte order, and whatever numbers they have."""
     header = parse_header(data)
     _require_mesh([element.name for element in header.elements])
-    counts = {_COUNTED[element.name]: element.count for element in header.elements if element.name in _COUNTED}
+    counts = {
+        _COUNTED[element.name]: element.count
+        for element in header.elements
+        if element.name in _COUNTED
+    }
     require_counts(limits, **counts)
     tables = tables_of(header, data[header.size :])
     vertex, face = tables["vertex"], tables["face"]
@@ -280,25 +322,43 @@ def read_ply(data: bytes, limits: Limits) -> Polygons:
     sizes, items = face.lists(corners)
     textured = bool(header.images)
     wedges, dropped, notes = _wedges(face, corners, sizes, textured)
-    columns = [*_columns(vertex, "vertex", "xyz", textured), *_columns(face, "face", (), textured), *wedges]
-    dropped += [f"the list {column.name} of vertices" for column in vertex.element.properties if column.length]
+    columns = [
+        *_columns(vertex, "vertex", "xyz", textured),
+        *_columns(face, "face", (), textured),
+        *wedges,
+    ]
+    dropped += [
+        f"the list {column.name} of vertices"
+        for column in vertex.element.properties
+        if column.length
+    ]
     for element in (vertex.element, face.element):
         dropped += [f"the first {name}, of which there are several" for name in element.repeated]
-    dropped += [element.name for element in header.elements if element.name not in _COUNTED and element.count]
+    dropped += [
+        element.name
+        for element in header.elements
+        if element.name not in _COUNTED and element.count
+    ]
     flat = as_integers(items, "a vertex index")
     plain_columns = tuple(_without_textures(columns, header))
-    return Polygons(positions, sizes, flat, tuple(notes), tuple(dropped), plain_columns, header.metadata)
+    return Polygons(
+        positions, sizes, flat, tuple(notes), tuple(dropped), plain_columns, header.metadata
+    )
 
 
 def _require_mesh(names: list[str]) -> None:
     """Refuse a file whose elements are not those of a mesh."""
     if "tristrips" in names:
-        raise MeshError("this PLY file holds triangle strips; convert it to faces (MeshLab does when it saves)")
+        raise MeshError(
+            "this PLY file holds triangle strips; convert it to faces (MeshLab does when it saves)"
+        )
     for name in _COUNTED:
         if names.count(name) > 1:
             raise MeshError(f"this PLY file has the element {name} several times; save it with one")
     if "range_grid" in names and "face" not in names:
-        raise NoFacesError("this PLY file is a range grid; mesh it first, for instance with MeshLab")
+        raise NoFacesError(
+            "this PLY file is a range grid; mesh it first, for instance with MeshLab"
+        )
     if not {*_COUNTED} <= {*names}:
         raise NoFacesError("this PLY file has no faces; point clouds are not supported")
 
@@ -308,11 +368,15 @@ def _positions(vertex: _Table) -> Doubles:
     if min(places) < 0 or any(vertex.element.properties[place].length for place in places):
         raise MeshError("the vertices of this PLY file have no numbers x, y and z")
     with np.errstate(invalid="ignore"):  # a later check refuses NaN
-        positions: Doubles = np.column_stack([vertex.numbers(place).astype(np.float64) for place in places])
+        positions: Doubles = np.column_stack(
+            [vertex.numbers(place).astype(np.float64) for place in places]
+        )
     return positions
 
 
-def _columns(table: _Table, domain: Domain, needed: Sequence[str], textured: bool) -> Iterator[Column]:
+def _columns(
+    table: _Table, domain: Domain, needed: Sequence[str], textured: bool
+) -> Iterator[Column]:
     """The properties that are numbers, those together that are one value."""
     types: dict[str, str] = {}
     places: dict[str, int] = {}
@@ -396,7 +460,9 @@ def _series(types: dict[str, str]) -> Iterator[tuple[str, list[str]]]:
             del remaining[member]
 
 
-def _wedges(table: _Table, corners: int, sizes: Ints, textured: bool) -> tuple[list[Column], list[str], list[str]]:
+def _wedges(
+    table: _Table, corners: int, sizes: Ints, textured: bool
+) -> tuple[list[Column], list[str], list[str]]:
     """Values of corners: lists as long as that of the vertices, or twice, ...; the lists that are not; and notes."""
     columns, dropped, notes = [], [], []
     for place, column in enumerate(table.element.properties):
@@ -408,7 +474,11 @@ def _wedges(table: _Table, corners: int, sizes: Ints, textured: bool) -> tuple[l
         if name == _WEDGES:
             width = 2
         is_full = lengths == width * sizes
-        if not 1 <= width <= MOST_COMPONENTS or not (is_full | (lengths == 0)).all() or not is_full.any():
+        if (
+            not 1 <= width <= MOST_COMPONENTS
+            or not (is_full | (lengths == 0)).all()
+            or not is_full.any()
+        ):
             dropped.append(name)
             continue
         rows = np.zeros((int(sizes.sum()), width), values.dtype)  # a face without any gets zeros
@@ -416,7 +486,9 @@ def _wedges(table: _Table, corners: int, sizes: Ints, textured: bool) -> tuple[l
         file_name = _WEDGES if name == _WEDGES and not textured else ""
         columns.append(Column(name, rows, "corner", meaning_of(name, width), file_name=file_name))
         if not is_full.all():
-            notes.append(f"faces without {PLURALS.get(name, name)} were given zeros: {int((~is_full).sum())}")
+            notes.append(
+                f"faces without {PLURALS.get(name, name)} were given zeros: {int((~is_full).sum())}"
+            )
     return columns, dropped, notes
 
 
@@ -432,7 +504,9 @@ def write_ply(mesh: TriangleMesh, stem: str) -> formats.Written:
     textures = _texture_numbers(metadata, order)
     has_several = len({*textures.values()}) > 1
     wedges = _wedge_texcoords(mesh, textured=bool(order), several=has_several)
-    mesh = formats.split_at_seams(mesh, *(attribute for attribute in mesh.attributes if attribute is not wedges))
+    mesh = formats.split_at_seams(
+        mesh, *(attribute for attribute in mesh.attributes if attribute is not wedges)
+    )
     single = np.float32 if single_suffices(mesh.positions) else np.float64
     columns: dict[str, list[tuple[str, Array]]] = {
         "vertex": list(zip("xyz", mesh.positions.astype(single).T)),
@@ -473,7 +547,9 @@ def _image_order(library: formats.Library) -> list[int]:
     return sorted(library.images, key=lambda number: number not in color_images)
 
 
-def _comments(metadata: Metadata, library: formats.Library, order: list[int]) -> tuple[list[str], tuple[str, ...]]:
+def _comments(
+    metadata: Metadata, library: formats.Library, order: list[int]
+) -> tuple[list[str], tuple[str, ...]]:
     """Return the lines with comments, images and metadata, and the names of entries that they cannot hold."""
     lines: list[str] = []
     held = set(library.written)
@@ -486,7 +562,9 @@ def _comments(metadata: Metadata, library: formats.Library, order: list[int]) ->
     # Comments of other programs have no numbers, so images count from 0 in their order; ours are named where that
     # fails.
     if order != [*range(len(order))]:
-        remarks += formats.remarks({f"image.{number}.name": library.images[number] for number in order})[0]
+        remarks += formats.remarks(
+            {f"image.{number}.name": library.images[number] for number in order}
+        )[0]
     held |= {name for name in metadata if name.startswith((formats.CALLED, formats.COMPONENTS))}
     entries, omitted = formats.remarks(metadata, held)
     lines += [f"comment {line}" for line in (*remarks, *entries)]
@@ -524,7 +602,9 @@ def _wedge_texcoords(mesh: TriangleMesh, *, textured: bool, several: bool) -> At
 
 def _property_names(attribute: Attribute, metadata: Metadata, names_taken: list[str]) -> list[str]:
     """The names of an attribute's properties: those of its file, those that everybody knows, or its own."""
-    candidates = [[re.sub(r"\s", "_", name) for name in formats.components_in_file(metadata, attribute)]]
+    candidates = [
+        [re.sub(r"\s", "_", name) for name in formats.components_in_file(metadata, attribute)]
+    ]
     for meaning, usual_names in _USUAL:
         if meaning == attribute.semantic and len(usual_names) == attribute.components:
             candidates.append([*usual_names])
@@ -536,5 +616,7 @@ def _property_names(attribute: Attribute, metadata: Metadata, names_taken: list[
     property_names: list[str] = []
     for place in range(attribute.components):
         wished_name = file_name if attribute.components == 1 else f"{file_name}_{place}"
-        property_names.append(unused_name(wished_name, attribute.domain, [*names_taken, *property_names]))
+        property_names.append(
+            unused_name(wished_name, attribute.domain, [*names_taken, *property_names])
+        )
     return property_names

@@ -15,7 +15,13 @@ import numpy.typing as npt
 from bsm.bitstream.errors import MeshError, imported, public
 from bsm.bitstream.limits import Limits
 from bsm.codec.arrays import distinct, sealed
-from bsm.codec.geometry.attributes import MOST_COMPONENTS, MOST_NAME_BYTES, Attribute, Domain, Semantic
+from bsm.codec.geometry.attributes import (
+    MOST_COMPONENTS,
+    MOST_NAME_BYTES,
+    Attribute,
+    Domain,
+    Semantic,
+)
 from bsm.codec.geometry.mesh import Metadata, NoFacesError, TriangleMesh
 from bsm.files.conventions import shares_of
 from bsm.files.formats.metadata import CALLED, COMPONENTS, NONE, fitting, named
@@ -56,7 +62,9 @@ class Column:
             raise MeshError(f"there are {len(indices)} of them for {places.max() + 1} corners")
         used = indices[places]
         if used.size and not (used.min() >= 0 and used.max() < len(self.values)):
-            raise MeshError(f"a corner refers to value {used[(used < 0) | (used >= len(self.values))][0]}")
+            raise MeshError(
+                f"a corner refers to value {used[(used < 0) | (used >= len(self.values))][0]}"
+            )
         return Attribute(name, self.values, "corner", self.semantic, used.astype(np.int32))
 
 
@@ -118,7 +126,9 @@ def joined_columns(parts: Sequence[Part]) -> tuple[list[Column], list[str]]:
     return joined, notes
 
 
-def _made_alike(parts: Sequence[Part], columns: list[Column | None], notes: list[str]) -> list[Column | None]:
+def _made_alike(
+    parts: Sequence[Part], columns: list[Column | None], notes: list[str]
+) -> list[Column | None]:
     """Return the columns of one name in the meaning, the width and the domain that hold those of all parts."""
     present = [column for column in columns if column is not None]
     name = present[0].name
@@ -126,11 +136,15 @@ def _made_alike(parts: Sequence[Part], columns: list[Column | None], notes: list
     width = max(column.values.shape[1] for column in present)
     is_narrow = any(column.values.shape[1] < width for column in present)
     if is_narrow and meanings - {"color", "texcoord"}:
-        notes.append(f"parts whose {name} has fewer than {width} numbers were given zeros after them")
+        notes.append(
+            f"parts whose {name} has fewer than {width} numbers were given zeros after them"
+        )
     # Zeros would be black holes in every viewer.
     needs_normals = meanings == {"normal"} and None in columns
     if needs_normals:
-        notes.append(f"parts without normals were given those of their faces: {columns.count(None)}")
+        notes.append(
+            f"parts without normals were given those of their faces: {columns.count(None)}"
+        )
     domains = {column.domain for column in present}
     if needs_normals:
         domains.add("face")
@@ -191,7 +205,9 @@ def _with_shares(column: Column) -> Column:
 
 def _blank_column(part: Part, model: Column) -> Column:
     """Return a column of blank values for a part: one value for all corners, or one for each vertex or face."""
-    count = {"vertex": len(part.positions), "face": len(part.sizes), "corner": len(part.corners)}[model.domain]
+    count = {"vertex": len(part.positions), "face": len(part.sizes), "corner": len(part.corners)}[
+        model.domain
+    ]
     size = min(count, 1) if model.domain == "corner" else count
     values = np.full((size, model.values.shape[1]), _blank(model), model.values.dtype)
     return replace(model, values=values, indices=np.zeros(count, np.int64))
@@ -209,13 +225,17 @@ def polygon_normals(positions: Doubles, sizes: Ints, corners: Ints) -> Doubles:
         # rounding.
         points = positions[corners] - positions[corners[first[owner]]]
         vectors = np.cross(points, points[after]) if len(corners) else points
-        return unit_rows(np.column_stack([np.bincount(owner, axis, len(sizes)) for axis in vectors.T]))
+        return unit_rows(
+            np.column_stack([np.bincount(owner, axis, len(sizes)) for axis in vectors.T])
+        )
 
 
 def unit_rows(vectors: Doubles, blank: Sequence[float] = (0.0, 0.0, 0.0)) -> Doubles:
     """Return vectors at length one; those without a length become `blank`."""
     lengths = np.linalg.norm(vectors, axis=-1, keepdims=True)
-    units: Doubles = np.divide(vectors, lengths, out=np.broadcast_to(blank, vectors.shape).copy(), where=lengths > 0)
+    units: Doubles = np.divide(
+        vectors, lengths, out=np.broadcast_to(blank, vectors.shape).copy(), where=lengths > 0
+    )
     return units
 
 
@@ -223,7 +243,9 @@ def turned_normals(normals: Doubles, linear: Doubles) -> Doubles:
     """Transform normals, shape (n, 3), by one matrix or by one each; mirrors turn the faces, not the normals."""
     rows = np.swapaxes(linear, -1, -2)
     # The cofactors and not the inverse transposed: they also exist where a matrix flattens a part.
-    cofactors = np.stack([np.cross(rows[..., (i + 1) % 3, :], rows[..., (i + 2) % 3, :]) for i in range(3)], axis=-1)
+    cofactors = np.stack(
+        [np.cross(rows[..., (i + 1) % 3, :], rows[..., (i + 2) % 3, :]) for i in range(3)], axis=-1
+    )
     side = np.where(np.linalg.det(linear) < 0, -1.0, 1.0)[..., None]
     return unit_rows(np.einsum("...ij,...j->...i", cofactors, normals) * side)
 
@@ -244,12 +266,21 @@ def unused_name(name: str, domain: str, taken_names: Collection[str]) -> str:
     longer_name = name if name.startswith(domain) else f"{domain}_{name}"
     if longer_name not in taken_names:
         return longer_name
-    return next(candidate for candidate in map(f"{name}{{}}".format, count(2)) if candidate not in taken_names)
+    return next(
+        candidate
+        for candidate in map(f"{name}{{}}".format, count(2))
+        if candidate not in taken_names
+    )
 
 
 def compact(values: Array) -> Array:
     """Return floats in single precision where that moves none by more than a millionth of their range."""
-    if values.dtype == np.float64 and values.size and np.isfinite(values).all() and single_suffices(values):
+    if (
+        values.dtype == np.float64
+        and values.size
+        and np.isfinite(values).all()
+        and single_suffices(values)
+    ):
         return values.astype(np.float32)
     return values
 
@@ -257,9 +288,12 @@ def compact(values: Array) -> Array:
 def color_column(values: Array, domain: Domain, *, written_whole: bool = False) -> Column:
     """Return colors as a file has them: bytes, or floats from 0 to 1; numbers beyond that mean nothing known."""
     if values.dtype.kind != "f":
-        return Column("color", values, domain, "color" if values.dtype in (np.uint8, np.uint16) else "generic")
+        return Column(
+            "color", values, domain, "color" if values.dtype in (np.uint8, np.uint16) else "generic"
+        )
     has_color = np.isfinite(values).all(axis=1)
-    if has_color.any() and not has_color.all():  # some have no color, and the others tell what they are
+    # Some have no color, and the others tell what they are.
+    if has_color.any() and not has_color.all():
         known_colors = color_column(values[has_color], domain, written_whole=written_whole)
         if known_colors.values.dtype == np.uint8 and (written_whole or values[has_color].max() > 1):
             values = values / 255
@@ -275,7 +309,11 @@ def color_column(values: Array, domain: Domain, *, written_whole: bool = False) 
 
 
 def named_column(
-    name: str, values: Array, domain: Domain, meaning: Semantic | None = None, components: Sequence[str] = ()
+    name: str,
+    values: Array,
+    domain: Domain,
+    meaning: Semantic | None = None,
+    components: Sequence[str] = (),
 ) -> Column:
     """Return values as libraries name them, shape (k, c), and their components; None: their name tells the meaning."""
     lower_name = name.lower()
@@ -294,7 +332,9 @@ def named_column(
 def meaning_of(name: str, components: int = 3) -> Semantic:
     """Return the meaning of values by their name, if as many components can mean that."""
     widths: dict[Semantic, tuple[int, ...]] = {"color": (3, 4), "normal": (3,), "texcoord": (2, 3)}
-    match = re.match(r"(?:(?:vertex|corner|face)_)?(color|normal|texcoord)s?(?![a-z])", name.lower())
+    match = re.match(
+        r"(?:(?:vertex|corner|face)_)?(color|normal|texcoord)s?(?![a-z])", name.lower()
+    )
     for meaning, counts in widths.items():
         if match and match[1] == meaning and components in counts:
             return meaning
@@ -305,8 +345,10 @@ CUT = "polygons were cut into triangles"
 CROSSING = "polygons whose sides cross, so that their triangles overlap"
 _MOST_TURNS = 16  # fans that are tried for a polygon
 _MOST_CORNERS = 1 << 15  # of a polygon whose ears are clipped: that can take the square of it
-PER_TRIANGLE, PER_CUT, PER_CORNER = 80, 300, 24  # bytes of a triangle, of one that a polygon is cut into, of a corner
-PER_JOINED, PER_PART = 200, 2000  # bytes that parts take while they are joined: of each triangle of a table, and a part
+# Bytes of a triangle, of one that a polygon is cut into, of a corner.
+PER_TRIANGLE, PER_CUT, PER_CORNER = 80, 300, 24
+# Bytes that parts take while they are joined: of each triangle of a table, and a part.
+PER_JOINED, PER_PART = 200, 2000
 
 
 @public
@@ -366,7 +408,9 @@ class Polygons:
         require_counts(limits, vertices=len(positions), faces=triangles)
         per_triangle = PER_TRIANGLE if (sizes == 3).all() else PER_CUT
         # Before any triangle is made.
-        limits.check_memory(per_triangle * triangles + PER_CORNER * len(corners), len(positions), received)
+        limits.check_memory(
+            per_triangle * triangles + PER_CORNER * len(corners), len(positions), received
+        )
         self._require_sound()
         notes = list(self.notes)
         left_out = list(self.dropped)
@@ -386,29 +430,41 @@ class Polygons:
                 component_names[f"{COMPONENTS}{column.name}"] = "\n".join(_component_names(column))
             for narrow_column in _narrow(column):
                 finite_columns += _finite(narrow_column, left_out)
-        attributes, file_names, refused = attributes_of(finite_columns, len(positions), len(sizes), places, owner)
+        attributes, file_names, refused = attributes_of(
+            finite_columns, len(positions), len(sizes), places, owner
+        )
         metadata = {**self.metadata, **file_names, **component_names}
         metadata, too_large = fitting(metadata, limits.metadata_bytes)
         reasons = refused | too_large
         if left_out:
             notes.append(f"left out: {', '.join(left_out)}")
         notes += [f"left out: {name}, because {reason}" for name, reason in reasons.items()]
-        mesh = TriangleMesh(positions, sealed(corners[places].astype(np.int32)), attributes, metadata)
+        mesh = TriangleMesh(
+            positions, sealed(corners[places].astype(np.int32)), attributes, metadata
+        )
         return MeshFile(mesh, tuple(notes), (*left_out, *refused, *too_large))
 
     def _require_sound(self) -> None:
         """Refuse polygons without faces, or with vertices that are not there or not finite."""
         if not (self.sizes > 0).any():
-            reason = f"it has {', '.join(self.dropped)}" if self.dropped else "point clouds are not supported"
+            reason = (
+                f"it has {', '.join(self.dropped)}"
+                if self.dropped
+                else "point clouds are not supported"
+            )
             raise NoFacesError(f"the file has no faces that can be read; {reason}")
         outside = (self.corners < 0) | (self.corners >= len(self.positions))
         if outside.any():
             index = int(self.corners[np.argmax(outside)])
-            raise MeshError(f"a face refers to vertex {index}, outside 0..{len(self.positions) - 1}")
+            raise MeshError(
+                f"a face refers to vertex {index}, outside 0..{len(self.positions) - 1}"
+            )
         finite = np.isfinite(self.positions)
         if not finite.all():
             row = int(np.argmin(finite.all(axis=1)))
-            raise MeshError(f"vertex {row} has a coordinate that is not finite; remove or repair it")
+            raise MeshError(
+                f"vertex {row} has a coordinate that is not finite; remove or repair it"
+            )
 
 
 def turned_corners(sizes: Ints, turned: Array) -> Ints:
@@ -464,7 +520,9 @@ class Part:
             if column.domain == "face":
                 column = replace(column, values=column.values[is_kept])
             elif column.domain == "corner":
-                indices = np.arange(len(corner_is_kept)) if column.indices is None else column.indices
+                indices = (
+                    np.arange(len(corner_is_kept)) if column.indices is None else column.indices
+                )
                 column = replace(column, indices=indices[corner_is_kept])
             columns.append(column)
         return replace(
@@ -516,16 +574,23 @@ def without_hidden(part: Part, losses: dict[str, None]) -> Part:
 def part_of(polygons: Polygons, name: str) -> Part:
     """Return polygons as a part without materials."""
     materials = np.zeros(len(polygons.sizes), np.int64)
-    return Part(polygons.positions, polygons.sizes, polygons.corners, polygons.columns, materials, name)
+    return Part(
+        polygons.positions, polygons.sizes, polygons.corners, polygons.columns, materials, name
+    )
 
 
 def joined_parts(
-    parts_given: Iterable[Part], counts: Sequence[tuple[int, int]] | None, limits: Limits, received: int
+    parts_given: Iterable[Part],
+    counts: Sequence[tuple[int, int]] | None,
+    limits: Limits,
+    received: int,
 ) -> Polygons:
     """Join the parts of a scene; `counts`, the vertices and triangles of each, are checked before a part is made."""
     if counts is None:  # the parts are there already
         parts_given = list(parts_given)
-        counts = [(len(part.positions), int(np.maximum(part.sizes - 2, 0).sum())) for part in parts_given]
+        counts = [
+            (len(part.positions), int(np.maximum(part.sizes - 2, 0).sum())) for part in parts_given
+        ]
     vertices = sum(count for count, _ in counts)
     triangles = sum(count for _, count in counts)
     require_counts(limits, vertices=vertices, faces=triangles)
@@ -534,8 +599,12 @@ def joined_parts(
     parts: list[Part] = []
     column_kinds: set[tuple[str, Domain]] = set()
     for part in parts_given:
-        if len(part.corners) and not 0 <= part.corners.min() <= part.corners.max() < len(part.positions):
-            raise MeshError(f"a face of {part.name or 'a part'} refers to a vertex that it does not have")
+        if len(part.corners) and not 0 <= part.corners.min() <= part.corners.max() < len(
+            part.positions
+        ):
+            raise MeshError(
+                f"a face of {part.name or 'a part'} refers to a vertex that it does not have"
+            )
         parts.append(part)
         column_kinds |= {(column.name, column.domain) for column in part.columns}
         column_memory = PER_JOINED * len(column_kinds) * max(triangles, vertices // 3)
@@ -555,7 +624,9 @@ def joined_parts(
     if len(distinct(material_numbers)) > 1:
         columns.append(Column("material", material_numbers.astype(np.int32)[:, None], "face"))
     if len(parts) > 1:
-        owner = np.repeat(np.arange(len(parts), dtype=np.int32), [len(part.sizes) for part in parts])
+        owner = np.repeat(
+            np.arange(len(parts), dtype=np.int32), [len(part.sizes) for part in parts]
+        )
         notes = [f"{len(parts)} parts were joined to one mesh", *notes]
         columns.append(Column("part", owner[:, None], "face"))
         metadata |= named([part.name for part in parts], "part")
@@ -576,7 +647,10 @@ def joined_files(files: Sequence[MeshFile], names: Sequence[str], limits: Limits
     """Return the meshes of files as the parts of one."""
     if len(files) == 1:
         return files[0]
-    parts = [part_of(_polygons_of(file.mesh), Path(name).stem) for file, name in zip(files, names, strict=True)]
+    parts = [
+        part_of(_polygons_of(file.mesh), Path(name).stem)
+        for file, name in zip(files, names, strict=True)
+    ]
     joined = joined_parts(parts, None, limits, 1 << 62)
     notes = dict.fromkeys(chain.from_iterable(file.notes for file in files))
     metadata = {**files[0].mesh.metadata, **joined.metadata}
@@ -591,7 +665,9 @@ def _polygons_of(mesh: TriangleMesh) -> Polygons:
             column = replace(column, indices=attribute.indices.ravel().astype(np.int64))
         columns.append(column)
     sizes = np.full(len(mesh.faces), 3)
-    return Polygons(mesh.positions, sizes, mesh.faces.ravel().astype(np.int64), (), (), tuple(columns))
+    return Polygons(
+        mesh.positions, sizes, mesh.faces.ravel().astype(np.int64), (), (), tuple(columns)
+    )
 
 
 _MOST_NARROW = 32
@@ -618,7 +694,10 @@ def _narrow(column: Column) -> list[Column]:
         return [column]
     one = replace(column, components=())
     names = (f"{column.name}.{component}" for component in _component_names(column))
-    return [replace(one, name=name, values=column.values[:, [place]]) for place, name in enumerate(names)]
+    return [
+        replace(one, name=name, values=column.values[:, [place]])
+        for place, name in enumerate(names)
+    ]
 
 
 def _finite(column: Column, dropped: list[str]) -> list[Column]:
@@ -629,11 +708,18 @@ def _finite(column: Column, dropped: list[str]) -> list[Column]:
     if not lost.any() or lost.all():
         return [column]
     name = PLURALS.get(column.name, column.name)
-    dropped.append(f"values of {name} that are not numbers ({int(lost.sum())}); {column.name}{NONE} marks them")
+    dropped.append(
+        f"values of {name} that are not numbers ({int(lost.sum())}); {column.name}{NONE} marks them"
+    )
     median = column.values.dtype.type(np.median(column.values[~lost]))
     marks = np.asarray(lost.any(axis=1)).astype(np.uint8)[:, None]
     mark_column = replace(
-        column, name=f"{column.name}{NONE}", values=marks, semantic="generic", file_name="", components=()
+        column,
+        name=f"{column.name}{NONE}",
+        values=marks,
+        semantic="generic",
+        file_name="",
+        components=(),
     )
     return [replace(column, values=np.where(lost, median, column.values)), mark_column]
 
@@ -657,11 +743,15 @@ def triangulate(positions: Doubles, sizes: Ints, corners: Ints) -> tuple[Ints, I
     # next corners, and only what is left is cut one by one.
     places: Ints = fans(np.arange(len(owner)), 0)
     vectors = _area_vectors(scaled, corners[places])
-    normals: Doubles = np.column_stack([np.bincount(owner, weights=axis, minlength=len(sizes)) for axis in vectors.T])
+    normals: Doubles = np.column_stack(
+        [np.bincount(owner, weights=axis, minlength=len(sizes)) for axis in vectors.T]
+    )
 
     def folded(rows: Ints, candidates: Ints) -> Ints:
         # A triangle whose normal is against that of its polygon lies outside of it, or over another triangle.
-        against = (_area_vectors(scaled, corners[candidates]) * normals[owner[rows]]).sum(axis=1) < 0
+        against = (_area_vectors(scaled, corners[candidates]) * normals[owner[rows]]).sum(
+            axis=1
+        ) < 0
         return np.unique(owner[rows[against]])
 
     bad: Ints = folded(np.arange(len(owner)), places)
@@ -697,14 +787,20 @@ class CutAlike:
     def __call__(self, positions: Doubles, sizes: Ints, corners: Ints) -> tuple[Ints, Ints, int]:
         same = np.array_equal(sizes, self._sizes) and np.array_equal(corners, self._corners)
         if self._cut is None or not same:
-            self._sizes, self._corners, self._cut = sizes, corners, triangulate(positions, sizes, corners)
+            self._sizes, self._corners, self._cut = (
+                sizes,
+                corners,
+                triangulate(positions, sizes, corners),
+            )
         return self._cut
 
 
 def _ears(points: Doubles, sizes: Ints, normals: Doubles) -> list[Ints]:
     """Cut polygons that are not convex into triangles by clipping ears; one whose sides cross gets too few or many."""
     if sizes.max() > _MOST_CORNERS:
-        raise MeshError(f"a polygon that is not convex has {sizes.max()} corners; cut it into triangles before")
+        raise MeshError(
+            f"a polygon that is not convex has {sizes.max()} corners; cut it into triangles before"
+        )
     flat, clip = _flattened(points, np.repeat(normals, sizes, axis=0)), _clipper()
     spans = zip((np.cumsum(sizes) - sizes).tolist(), sizes.tolist())
     return [_filled(clip(flat[at : at + size], [size]), size) for at, size in spans]
@@ -714,7 +810,9 @@ def cut_holes(points: Doubles, ends: Sequence[int]) -> Ints:
     """Cut a polygon with holes into triangles: its corners, then those of each hole; `ends` of these."""
     ring = np.arange(ends[0])
     if len(points) > _MOST_CORNERS:
-        raise MeshError(f"a polygon with holes has {len(points)} corners; cut it into triangles before")
+        raise MeshError(
+            f"a polygon with holes has {len(points)} corners; cut it into triangles before"
+        )
     normal = polygon_normals(points, np.array([ends[0]]), ring)
     return _clipper()(_flattened(points, np.repeat(normal, len(points), axis=0)), ends)
 
@@ -725,12 +823,16 @@ def _flattened(points: Doubles, normals: Doubles) -> Doubles:
     axis = np.argmax(np.abs(normals), axis=1)[:, None]
     axes = np.array([[1, 2], [0, 2], [0, 1]])[axis[:, 0]]
     sign = np.where((np.take_along_axis(normals, axis, 1) < 0) != (axis == 1), -1.0, 1.0)
-    return np.ascontiguousarray(np.take_along_axis(points, axes, 1) * np.column_stack([sign, np.ones_like(sign)]))
+    return np.ascontiguousarray(
+        np.take_along_axis(points, axes, 1) * np.column_stack([sign, np.ones_like(sign)])
+    )
 
 
 def _clipper() -> Callable[[Doubles, Sequence[int]], Ints]:
     """Return what makes triangles of a polygon and its holes, whose corners end at given places."""
-    library = imported("mapbox_earcut", "polygons that are not convex are cut with mapbox-earcut", "formats")
+    library = imported(
+        "mapbox_earcut", "polygons that are not convex are cut with mapbox-earcut", "formats"
+    )
     cut = library.triangulate_float64
     return lambda flat, ends: cut(flat, np.array(ends, np.uint32)).reshape(-1, 3).astype(np.int64)
 
@@ -740,7 +842,9 @@ def _filled(triangles: Ints, size: int) -> Ints:
     if len(triangles) >= size - 2:
         return triangles
     # In the order of the triangles, which JavaScript has, too: that of a set is Python's own.
-    sides = dict.fromkeys(side for i, j, k in triangles.tolist() for side in ((i, j), (j, k), (k, i)))
+    sides = dict.fromkeys(
+        side for i, j, k in triangles.tolist() for side in ((i, j), (j, k), (k, i))
+    )
     more = [
         (i, (i + k) % size, (i + k + 1) % size)
         for i, j in sides

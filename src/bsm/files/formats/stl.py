@@ -33,25 +33,37 @@ def is_text(head: bytes, size: int | None) -> bool:
     if size == HEAD + RECORD.itemsize * claimed or b"\0" in head[:1024]:
         return False
     begins_so = head.removeprefix(BOM_UTF8).lstrip()[:5].lower() == b"solid"
-    return begins_so or re.search(rb"\b(facet\s+normal|outer\s+loop|vertex)\b", head, re.IGNORECASE) is not None
+    return (
+        begins_so
+        or re.search(rb"\b(facet\s+normal|outer\s+loop|vertex)\b", head, re.IGNORECASE) is not None
+    )
 
 
 def binary_triangles(head: bytes, size: int | None) -> tuple[int, str]:
     """Return the number of triangles of a binary STL, by its size where that is known, and a note if they disagree."""
     if len(head) < HEAD:
-        raise FormatError(f"this is not an STL file: it has {len(head)} bytes, and the header alone has {HEAD}")
+        raise FormatError(
+            f"this is not an STL file: it has {len(head)} bytes, and the header alone has {HEAD}"
+        )
     claimed = int.from_bytes(head[HEAD - 4 : HEAD], "little")
     if size is None:
         return claimed, ""
     records, rest = divmod(size - HEAD, RECORD.itemsize)
     if records < claimed and claimed not in _UNKNOWN and (kind := other_kind(head, "stl")):
-        raise FormatError(f"this is not an STL file: it is {kind}; give it the right name, or name its format")
+        raise FormatError(
+            f"this is not an STL file: it is {kind}; give it the right name, or name its format"
+        )
     if records < claimed and claimed not in _UNKNOWN:
-        raise TruncatedError(f"the STL file is cut short (or is not one): it has {records} of {claimed} triangles")
+        raise TruncatedError(
+            f"the STL file is cut short (or is not one): it has {records} of {claimed} triangles"
+        )
     if records == claimed or (claimed not in _UNKNOWN and rest):
         beyond = size - HEAD - RECORD.itemsize * claimed
         return claimed, f"{beyond} bytes after the last triangle" if beyond else ""
-    return records, f"the number of triangles in the header ({claimed}; by its size, the file has {records})"
+    return (
+        records,
+        f"the number of triangles in the header ({claimed}; by its size, the file has {records})",
+    )
 
 
 def read_stl(data: bytes, limits: Limits) -> Polygons:
@@ -78,16 +90,31 @@ def read_stl(data: bytes, limits: Limits) -> Polygons:
     note = f"STL knows no vertices: {len(soup)} corners with equal coordinates were joined to {len(first)} vertices"
     sizes = np.full(len(soup) // 3, 3)
     dropped = (wrong,) if wrong else ()
-    return Polygons(sealed(soup[first]), sizes, corners.astype(np.int64), (note,), dropped, tuple(columns), metadata)
+    return Polygons(
+        sealed(soup[first]),
+        sizes,
+        corners.astype(np.int64),
+        (note,),
+        dropped,
+        tuple(columns),
+        metadata,
+    )
 
 
 def _of_text(data: bytes) -> tuple[Doubles, list[Column], dict[str, str], str]:
     """The corners of a text, its solids as groups, of which several may have the same name, and lines of no STL."""
-    data = re.sub(rb"(?i)\bend[ \t]+(solid|facet|loop)\b", rb"end\1", re.sub(rb"\r\n?", b"\n", data))
-    if re.search(rb"(?i)\b(outer[ \t]+loop[ \t]+vertex|endloop[ \t]+endfacet)\b", data):  # lines of several words
-        data = re.sub(rb"(?i)(?<=[ \t])((?:end)?facet|outer|(?:end)?loop|vertex)(?=\s)", rb"\n\1", data)
+    data = re.sub(
+        rb"(?i)\bend[ \t]+(solid|facet|loop)\b", rb"end\1", re.sub(rb"\r\n?", b"\n", data)
+    )
+    # Lines of several words.
+    if re.search(rb"(?i)\b(outer[ \t]+loop[ \t]+vertex|endloop[ \t]+endfacet)\b", data):
+        data = re.sub(
+            rb"(?i)(?<=[ \t])((?:end)?facet|outer|(?:end)?loop|vertex)(?=\s)", rb"\n\1", data
+        )
     lines = re.findall(rb"^[ \t]*vertex[ \t]+([^\r\n]*)", data, re.MULTILINE | re.IGNORECASE)
-    marks = re.finditer(rb"^[ \t]*(?:(endfacet)|solid\b([^\r\n]*))", data, re.MULTILINE | re.IGNORECASE)
+    marks = re.finditer(
+        rb"^[ \t]*(?:(endfacet)|solid\b([^\r\n]*))", data, re.MULTILINE | re.IGNORECASE
+    )
     names: list[str] = []
     facets: list[int] = []
     for mark in marks:
@@ -95,16 +122,37 @@ def _of_text(data: bytes) -> tuple[Doubles, list[Column], dict[str, str], str]:
             facets.append(len(names))
         else:
             names.append(text_of(mark[2]))
-    if len(lines) != 3 * len(facets) or not (facets or re.search(rb"endsolid", data, re.IGNORECASE)):
-        if facets and len(lines) > 3 * len(facets) and re.search(rb"endfacet[^\n]*\s+endsolid[^\n]*\s*\Z", data, re.I):
-            raise FormatError(f"{len(facets)} facets have {len(lines)} corners; cut them into triangles")
-        raise TruncatedError(f"the STL file is cut short: {len(lines)} corners in {len(facets)} finished triangles")
+    if len(lines) != 3 * len(facets) or not (
+        facets or re.search(rb"endsolid", data, re.IGNORECASE)
+    ):
+        if (
+            facets
+            and len(lines) > 3 * len(facets)
+            and re.search(rb"endfacet[^\n]*\s+endsolid[^\n]*\s*\Z", data, re.I)
+        ):
+            raise FormatError(
+                f"{len(facets)} facets have {len(lines)} corners; cut them into triangles"
+            )
+        raise TruncatedError(
+            f"the STL file is cut short: {len(lines)} corners in {len(facets)} finished triangles"
+        )
     used, of_facet = np.unique(np.array(facets, np.int64), return_inverse=True)
     solid_names = [("", *names)[solid] for solid in used.tolist()]
     columns = [Column("group", of_facet.astype(np.int32), "face")] if len(used) > 1 else []
-    others = re.findall(rb"(?im)^[ \t]*(?!(?:(?:end)?(?:solid|facet|loop)|outer|vertex)\b)(\S+)", data)
-    wrong = f"lines that begin with {', '.join(sorted({text_of(word) for word in others}))}"[:200] if others else ""
-    return Rows(lines, "corner").columns(0, 3), columns, named(solid_names, "group") if any(solid_names) else {}, wrong
+    others = re.findall(
+        rb"(?im)^[ \t]*(?!(?:(?:end)?(?:solid|facet|loop)|outer|vertex)\b)(\S+)", data
+    )
+    wrong = (
+        f"lines that begin with {', '.join(sorted({text_of(word) for word in others}))}"[:200]
+        if others
+        else ""
+    )
+    return (
+        Rows(lines, "corner").columns(0, 3),
+        columns,
+        named(solid_names, "group") if any(solid_names) else {},
+        wrong,
+    )
 
 
 def write_stl(mesh: TriangleMesh, stem: str) -> Written:
@@ -124,5 +172,7 @@ def write_stl(mesh: TriangleMesh, stem: str) -> Written:
     if len(header) >= HEAD - 3 or header.startswith(b"solid"):  # which would be a text
         header = b""
         lost = list(mesh.metadata)
-    data = header.ljust(HEAD - 4, b"\0") + len(triangles).to_bytes(4, "little") + triangles.tobytes()
+    data = (
+        header.ljust(HEAD - 4, b"\0") + len(triangles).to_bytes(4, "little") + triangles.tobytes()
+    )
     return Written(data, left_out(mesh, [color], lost))

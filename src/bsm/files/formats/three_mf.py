@@ -20,16 +20,34 @@ from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.files import conventions
 from bsm.files.conventions import placement
 from bsm.files.formats import metadata as formats
-from bsm.files.formats.appearance import Material, appearance, as_text, held_by, lost, one_line, within
+from bsm.files.formats.appearance import (
+    Material,
+    appearance,
+    as_text,
+    held_by,
+    lost,
+    one_line,
+    within,
+)
 from bsm.files.formats.polygons import Array, Column, Part, Polygons, joined_parts
 from bsm.files.parsing import NO_DOUBLES, Doubles, Ints, as_library_error, single_suffices
 from bsm.files.unread import Said, Taken, rows_of
 from bsm.ground.lengths import metres, unit_named
 
 _SIZES = (1e-6, 0.001, 0.01, 0.0254, 0.3048, 1.0)  # of the units in meters, as lib3mf counts them
-_KNOWN = ("Title", "Designer", "Description", "Copyright", "LicenseTerms", "Rating", "CreationDate", "Application")
+_KNOWN = (
+    "Title",
+    "Designer",
+    "Description",
+    "Copyright",
+    "LicenseTerms",
+    "Rating",
+    "CreationDate",
+    "Application",
+)
 _TAKEN = Taken(rows_of("3mf"))
-_FILES = re.compile(r"\[Content_Types\]\.xml|(.*/)?_rels/.*|.*\.model|.*/", re.IGNORECASE)  # those of each package
+# Those of each package.
+_FILES = re.compile(r"\[Content_Types\]\.xml|(.*/)?_rels/.*|.*\.model|.*/", re.IGNORECASE)
 _ELSE = "write PLY, OBJ or OFF"
 _MOST_OBJECTS, _MOST_COLORS = 1 << 10, 1 << 18
 _Painted = Literal["color", "texcoord"]
@@ -120,7 +138,9 @@ class _Model:
     def _below(self, item: Any) -> Iterator[tuple[int, Doubles, str]]:
         """The meshes of an item of the build, each with its place and its name."""
         # A stack and no recursion: a file may nest objects deeper than Python can call.
-        waiting = [(item.GetObjectResource().GetUniqueResourceID(), _matrix(item.GetObjectTransform()), "")]
+        waiting = [
+            (item.GetObjectResource().GetUniqueResourceID(), _matrix(item.GetObjectTransform()), "")
+        ]
         while waiting:
             number, matrix, assembly = waiting.pop()
             item = self._objects[number]
@@ -146,12 +166,16 @@ class _Model:
             columns, materials = self._painted(item, len(corners))
             sizes = np.full(len(corners), 3)
             flat = corners.astype(np.int64).reshape(-1)
-            self._shapes[number] = Part(points.astype(np.float64), sizes, flat, columns, materials, "")
+            self._shapes[number] = Part(
+                points.astype(np.float64), sizes, flat, columns, materials, ""
+            )
         return replace(self._shapes[number], name=name)
 
     def _painted(self, item: Any, count: int) -> tuple[list[Column], Ints]:
         """The colors and texture coordinates of the corners of an object, and the materials of its triangles."""
-        properties = _table(item, "meshobject_getalltriangleproperties", self._library.TriangleProperties)
+        properties = _table(
+            item, "meshobject_getalltriangleproperties", self._library.TriangleProperties
+        )
         owners = properties["ResourceID"].astype(np.int64)
         places = properties["PropertyIDs"].astype(np.int64)
         object_owner, object_place, has_property = item.GetObjectLevelProperty()
@@ -170,7 +194,9 @@ class _Model:
             kind = self._model.GetPropertyTypeByID(owner).name
             if kind == "BaseMaterial":
                 group = self._model.GetBaseMaterialGroupByID(owner)
-                numbers = [self._number((owner, place), _material(group, place)) for place in used.tolist()]
+                numbers = [
+                    self._number((owner, place), _material(group, place)) for place in used.tolist()
+                ]
                 # Corners of a triangle may have several base materials by the file, but the specification only lets the
                 # first count.
                 materials[rows] = np.array(numbers)[corner_numbers[:, 0]]
@@ -276,7 +302,9 @@ def _written(library: Any, mesh: TriangleMesh) -> formats.Written:
     # lib3mf would refuse the whole mesh with a number in place of a reason.
     repeated = int((mesh.faces == np.roll(mesh.faces, 1, axis=1)).any(axis=1).sum())
     if repeated:
-        raise MeshError(f"{counted(faces=repeated)} with one vertex twice, which 3MF does not have; {_ELSE}")
+        raise MeshError(
+            f"{counted(faces=repeated)} with one vertex twice, which 3MF does not have; {_ELSE}"
+        )
     metadata_held = {"up", "unit"} & {*place.expressed}
     if size:
         metadata_held.add("unit")
@@ -285,14 +313,25 @@ def _written(library: Any, mesh: TriangleMesh) -> formats.Written:
     if sorting is None:
         metadata_held.add("name")
     else:
-        metadata_held |= {f"{sorting.name}.names", *(f"{sorting.name}.{number}.name" for number in objects)}
-    face_materials = np.zeros(len(mesh.faces), np.int64) if numbers is None else numbers.values[:, 0]
-    painted = _colored(library, model, face_materials, materials, metadata_held) if materials else None
+        metadata_held |= {
+            f"{sorting.name}.names",
+            *(f"{sorting.name}.{number}.name" for number in objects),
+        }
+    face_materials = (
+        np.zeros(len(mesh.faces), np.int64) if numbers is None else numbers.values[:, 0]
+    )
+    painted = (
+        _colored(library, model, face_materials, materials, metadata_held) if materials else None
+    )
     looks = [number for number, words in materials.items() if words.keys() - {"name"}]
     # A triangle has the color of its material, or of its corners.
     hidden = np.isin(face_materials, looks)
     color = formats.first(mesh, "color", (3, 4), "vertex", "corner", "face")
-    tinted = None if color is None else _tinted(library, model, _bytes_of(at_corners(color, mesh.faces)), hidden)
+    tinted = (
+        None
+        if color is None
+        else _tinted(library, model, _bytes_of(at_corners(color, mesh.faces)), hidden)
+    )
     if tinted is None:
         color = None
     elif painted is None:
@@ -309,7 +348,11 @@ def _written(library: Any, mesh: TriangleMesh) -> formats.Written:
         if painted is not None:
             first = painted[rows[0]]
             item.SetObjectLevelProperty(int(first["ResourceID"]), int(first["PropertyIDs"][0]))
-            _call(item, "meshobject_setalltriangleproperties", *_counted(painted[rows], library.TriangleProperties))
+            _call(
+                item,
+                "meshobject_setalltriangleproperties",
+                *_counted(painted[rows], library.TriangleProperties),
+            )
         item.SetName(one_line(name))
         model.AddBuildItem(item, library.get_wrapper().GetIdentityTransform())
     entries = {"Application": mesh.metadata.get("provenance"), **mesh.metadata}
@@ -318,7 +361,9 @@ def _written(library: Any, mesh: TriangleMesh) -> formats.Written:
         value = entries.get(name)
         if isinstance(value, str):
             group.AddMetaData("", name, value.encode(errors="replace").decode(), "xs:string", True)
-            metadata_held |= {key for key in (name, "provenance") if mesh.metadata.get(key) == value}
+            metadata_held |= {
+                key for key in (name, "provenance") if mesh.metadata.get(key) == value
+            }
     writer = model.QueryWriter("3mf")
     largest = max(float(np.abs(positions).max(initial=0)), 1e-30)
     # Coordinates become text. As many decimals as single precision has digits, counted from the largest coordinate.
@@ -326,7 +371,9 @@ def _written(library: Any, mesh: TriangleMesh) -> formats.Written:
     writer.SetDecimalPrecision(int(np.clip(decimals, 0, 15)))  # more of them go wrong
     data = _table(writer, "writer_writetobuffer", ctypes.c_uint8).tobytes()
     written_attributes = [numbers if materials else None, sorting, color]
-    left_out = formats.left_out(mesh, written_attributes, [name for name in mesh.metadata if name not in metadata_held])
+    left_out = formats.left_out(
+        mesh, written_attributes, [name for name in mesh.metadata if name not in metadata_held]
+    )
     if color is not None and color.values.dtype != np.uint8:
         left_out = (*left_out, f"{color.name} beyond 8 bits")
     return formats.Written(data, left_out)
@@ -352,7 +399,9 @@ def _objects(mesh: TriangleMesh) -> tuple[Attribute | None, dict[int, tuple[str,
         kinds = np.unique(sorting.values).tolist()
         if 1 < len(kinds) <= _MOST_OBJECTS:
             names = formats.names_in(mesh.metadata, what)
-            return sorting, {n: (names.get(n, ""), np.flatnonzero(sorting.values == n)) for n in kinds}
+            return sorting, {
+                n: (names.get(n, ""), np.flatnonzero(sorting.values == n)) for n in kinds
+            }
     return None, {0: (str(mesh.metadata.get("name") or ""), np.arange(len(mesh.faces)))}
 
 
@@ -377,7 +426,9 @@ def _tinted(library: Any, model: Any, colors: Array, hidden: Mask) -> Array | No
     if len(used) > _MOST_COLORS:
         return None
     group = model.AddColorGroup()
-    places = [group.AddColor(library.Color(*rgba)) for rgba in used.view(np.uint8).reshape(-1, 4).tolist()]
+    places = [
+        group.AddColor(library.Color(*rgba)) for rgba in used.view(np.uint8).reshape(-1, 4).tolist()
+    ]
     if (colors[hidden] != 255).any():
         return None
     properties = np.zeros(len(colors), np.dtype(library.TriangleProperties))
@@ -387,7 +438,11 @@ def _tinted(library: Any, model: Any, colors: Array, hidden: Mask) -> Array | No
 
 
 def _colored(
-    library: Any, model: Any, numbers: Ints, materials: Mapping[int, Material], fields_held: set[str]
+    library: Any,
+    model: Any,
+    numbers: Ints,
+    materials: Mapping[int, Material],
+    fields_held: set[str],
 ) -> Array:
     """Return the color of each triangle by its material; `fields_held` gets the metadata that this holds."""
     used, where = np.unique(numbers, return_inverse=True)

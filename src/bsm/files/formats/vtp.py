@@ -33,13 +33,37 @@ from bsm.files.formats.metadata import (
     unsaid,
     with_none,
 )
-from bsm.files.formats.polygons import Array, Column, Part, Polygons, cut_strips, named_column, without_hidden
-from bsm.files.parsing import AS_NUMBERS, TAG, Ints, require_counts, require_inflated, single_suffices
+from bsm.files.formats.polygons import (
+    Array,
+    Column,
+    Part,
+    Polygons,
+    cut_strips,
+    named_column,
+    without_hidden,
+)
+from bsm.files.parsing import (
+    AS_NUMBERS,
+    TAG,
+    Ints,
+    require_counts,
+    require_inflated,
+    single_suffices,
+)
 
-_WHOLE = [(sign, kind, bits) for sign, kind in (("Int", "i"), ("UInt", "u")) for bits in (8, 16, 32, 64)]
-_TYPES = {f"{sign}{bits}": f"{kind}{bits // 8}" for sign, kind, bits in _WHOLE} | {"Float32": "f4", "Float64": "f8"}
+_WHOLE = [
+    (sign, kind, bits) for sign, kind in (("Int", "i"), ("UInt", "u")) for bits in (8, 16, 32, 64)
+]
+_TYPES = {f"{sign}{bits}": f"{kind}{bits // 8}" for sign, kind, bits in _WHOLE} | {
+    "Float32": "f4",
+    "Float64": "f8",
+}
 _NAMES = {kind: name for name, kind in _TYPES.items()}
-_UNDERSCORE, _PADDED, _COUNT = re.compile(rb"\s*_"), re.compile(rb"[^=]+={0,2}"), re.compile(r"\d{1,18}")
+_UNDERSCORE, _PADDED, _COUNT = (
+    re.compile(rb"\s*_"),
+    re.compile(rb"[^=]+={0,2}"),
+    re.compile(r"\d{1,18}"),
+)
 _TAGS = ("VTKFile", "Piece", "PointData", "CellData")  # elements whose attributes are of use
 _HEADS = {"UInt32": "u4", "UInt64": "u8"}
 _ARRAYS, _MOST_ARRAYS = ("DataArray", "Array"), 1024
@@ -62,7 +86,8 @@ def elements_of(text: bytes) -> list[ElementTree.Element]:
         parser = ElementTree.XMLParser(target=_Builder())
         parser.feed(text)
         return list(parser.close().iter())
-    except (ElementTree.ParseError, LookupError, ValueError) as error:  # the last two of strange encodings
+    # The last two of strange encodings.
+    except (ElementTree.ParseError, LookupError, ValueError) as error:
         raise FormatError(f"this is not a file of VTK: its XML is broken: {error}") from error
 
 
@@ -71,8 +96,12 @@ class _Document:
 
     def __init__(self, text: bytes, appended: bytes, raw: bool, limits: Limits, size: int) -> None:
         elements = elements_of(text)
-        self.arrays = [(parent.tag, child) for parent in elements for child in parent if child.tag in _ARRAYS]
-        self.tags = {element.tag: element.attrib for element in reversed(elements) if element.tag in _TAGS}
+        self.arrays = [
+            (parent.tag, child) for parent in elements for child in parent if child.tag in _ARRAYS
+        ]
+        self.tags = {
+            element.tag: element.attrib for element in reversed(elements) if element.tag in _TAGS
+        }
         if len(self.arrays) > _MOST_ARRAYS:
             raise FormatError(f"this VTP file has more than {_MOST_ARRAYS} arrays")
         if sum(element.tag == "Piece" for element in elements) > 1:
@@ -152,7 +181,9 @@ class _Document:
         if not self._compressor:
             return self._taken(encoded, self._head.itemsize, count)
         if self._compressor != "vtkZLibDataCompressor":
-            raise FormatError(f"{self._compressor} is not known here; save it with zlib, or uncompressed")
+            raise FormatError(
+                f"{self._compressor} is not known here; save it with zlib, or uncompressed"
+            )
         if count > len(encoded):
             raise TruncatedError("the blocks of an array are not there")
         head = self._head_of(encoded, 3 + count)
@@ -206,7 +237,9 @@ def read_vtp(data: bytes, limits: Limits) -> Polygons:
             "this VTK file holds no surface; extract one (ParaView's filter Extract Surface); "
             "if it is a list of blocks, call it .vtm"
         )
-    points, polygons, strips = (_count(piece, f"NumberOf{what}", 0) for what in ("Points", "Polys", "Strips"))
+    points, polygons, strips = (
+        _count(piece, f"NumberOf{what}", 0) for what in ("Points", "Polys", "Strips")
+    )
     require_counts(limits, vertices=points, faces=polygons + strips)
     arrays: dict[tuple[str, str], ElementTree.Element] = {}
     fields: dict[str, ElementTree.Element] = {}
@@ -228,15 +261,21 @@ def read_vtp(data: bytes, limits: Limits) -> Polygons:
     cells_before = _count(piece, "NumberOfVerts", 0) + _count(piece, "NumberOfLines", 0)
     cells = cells_before + np.append(np.arange(polygons), polygons + owner)
     columns, dropped = _columns(document, cells, cells_before + polygons + strips)
-    metadata, omitted = plain_fields({name: _field(document.numbers(array), array) for name, array in fields.items()})
+    metadata, omitted = plain_fields(
+        {name: _field(document.numbers(array), array) for name, array in fields.items()}
+    )
     others = [word for name, word in _OTHERS.items() if _count(piece, name, 0)]
     sizes = np.append(sizes, np.full(len(triangles), 3))
     flat = np.append(flat, triangles.ravel())
     with np.errstate(invalid="ignore"):  # as above
         positions = coordinates.astype(np.float64)
     losses = dict.fromkeys((*dropped, *omitted, *others))
-    part = without_hidden(Part(positions, sizes, flat, columns, np.zeros(len(sizes), np.int64), ""), losses)
-    return Polygons(positions, part.sizes, part.corners, (), tuple(losses), tuple(part.columns), metadata)
+    part = without_hidden(
+        Part(positions, sizes, flat, columns, np.zeros(len(sizes), np.int64), ""), losses
+    )
+    return Polygons(
+        positions, part.sizes, part.corners, (), tuple(losses), tuple(part.columns), metadata
+    )
 
 
 def _parse(data: bytes, limits: Limits) -> _Document:
@@ -253,7 +292,9 @@ def _parse(data: bytes, limits: Limits) -> _Document:
     return _Document(text, appended, is_raw, limits, len(data))
 
 
-def _cells(document: _Document, arrays: Mapping[tuple[str, str], Any], around: str, count: int) -> tuple[Ints, Ints]:
+def _cells(
+    document: _Document, arrays: Mapping[tuple[str, str], Any], around: str, count: int
+) -> tuple[Ints, Ints]:
     """The sizes and the corners of polygons or strips."""
     if not count:
         return np.zeros(0, np.int64), np.zeros(0, np.int64)
@@ -284,7 +325,10 @@ def _columns(document: _Document, cells: Ints, count: int) -> tuple[list[Column]
         if section == "CellData" and len(values) == count:
             values = values[cells]
         active = document.tags.get(section, {})
-        meanings: dict[str | None, Semantic] = {active.get("TCoords"): "texcoord", active.get("Normals"): "normal"}
+        meanings: dict[str | None, Semantic] = {
+            active.get("TCoords"): "texcoord",
+            active.get("Normals"): "normal",
+        }
         components = [array.get(f"ComponentName{place}", "") for place in range(values.shape[1])]
         if len(components) == 1 or not all(components):
             components = []
@@ -327,7 +371,9 @@ class _Appended:
         tag = "Array" if kind == "String" else "DataArray"
         count = "Tuples" if kind else "Components"
         width = values.shape[1] if values.ndim == 2 else 1
-        names = "".join(f"ComponentName{place}={_quoted(word)} " for place, word in enumerate(components))
+        names = "".join(
+            f"ComponentName{place}={_quoted(word)} " for place, word in enumerate(components)
+        )
         element = (
             f'<{tag} type="{kind or _NAMES[values.dtype.str[1:]]}" Name={_quoted(name)} {names}'
             f'NumberOf{count}="{width}" format="appended" offset="{self._size}"/>'
@@ -337,7 +383,10 @@ class _Appended:
         return element
 
     def add_section(self, tag: str, mesh: TriangleMesh, domain: Domain) -> str:
-        lines = [self.add(name, values, "", components) for name, values, components in _arrays(mesh, domain)]
+        lines = [
+            self.add(name, values, "", components)
+            for name, values, components in _arrays(mesh, domain)
+        ]
         return f"<{tag}{_active(mesh, domain)}>{''.join(lines)}</{tag}>\n"
 
 
@@ -348,7 +397,10 @@ def write_vtp(mesh: TriangleMesh, stem: str) -> Written:
     kind = np.float32 if single_suffices(mesh.positions) else np.float64
     vertices, faces = len(mesh.positions), len(mesh.faces)
     appended = _Appended()
-    fields = [appended.add(name, values, kind_of_field) for name, kind_of_field, values in _fields(mesh.metadata)]
+    fields = [
+        appended.add(name, values, kind_of_field)
+        for name, kind_of_field, values in _fields(mesh.metadata)
+    ]
     point_data = appended.add_section("PointData", mesh, "vertex")
     cell_data = appended.add_section("CellData", mesh, "face")
     points = appended.add("Points", mesh.positions.astype(kind))
@@ -364,13 +416,17 @@ def write_vtp(mesh: TriangleMesh, stem: str) -> Written:
         '</Piece></PolyData>\n<AppendedData encoding="raw">_'
     )
     lost = left_out(mesh, mesh.attributes, (), unsaid(mesh.metadata, "VTP"))
-    return Written(b"".join((text.encode(), *appended.blocks, b"</AppendedData></VTKFile>\n")), lost)
+    return Written(
+        b"".join((text.encode(), *appended.blocks, b"</AppendedData></VTKFile>\n")), lost
+    )
 
 
 def _arrays(mesh: TriangleMesh, domain: Domain) -> Iterator[tuple[str, Array, list[str]]]:
     """The names, values and components of attributes, those together that were one array of many components."""
     values = with_none(attribute for attribute in mesh.attributes if attribute.domain == domain)
-    attributes = {attribute.name: attribute for attribute in mesh.attributes if attribute.name in values}
+    attributes = {
+        attribute.name: attribute for attribute in mesh.attributes if attribute.name in values
+    }
     for key, words in mesh.metadata.items():
         if not key.startswith(COMPONENTS):
             continue

@@ -12,13 +12,30 @@ from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.geometry.attributes import Domain
 from bsm.files.formats.appearance import Material, as_text
 from bsm.files.formats.metadata import Value, described, kind_of_image
-from bsm.files.formats.polygons import Array, Column, Part, Polygons, color_column, compact, joined_parts, meaning_of
+from bsm.files.formats.polygons import (
+    Array,
+    Column,
+    Part,
+    Polygons,
+    color_column,
+    compact,
+    joined_parts,
+    meaning_of,
+)
 from bsm.files.parsing import Doubles
 
 _NO_NAMES = re.compile(r"geometry_\d+|GLTF(_\d+)?")
 _PADDING = re.compile(rb"(?<=IEND\xaeB`\x82)\0{1,3}\Z|(?<=\xff\xd9)\0{1,3}\Z")
 """The padding after a PNG or JPEG in GLB files."""
-_OF_TRIMESH = ("units", "from_gltf_primitive", "gltf_extensions", "file_path", "file_name", "node", "processed")
+_OF_TRIMESH = (
+    "units",
+    "from_gltf_primitive",
+    "gltf_extensions",
+    "file_path",
+    "file_name",
+    "node",
+    "processed",
+)
 """Metadata that trimesh has added."""
 _Surface: TypeAlias = tuple[Doubles, Any, str]
 """A place, the mesh there, and its name."""
@@ -26,8 +43,12 @@ _Surface: TypeAlias = tuple[Doubles, Any, str]
 
 def joined(scene: Any, limits: Limits = DEFAULT_LIMITS, received: int = 1 << 62) -> Polygons:
     """Join the surfaces of a scene, each as often and where the scene places it; `received` is the size of the file."""
-    order = {name: place for place, name in enumerate(scene.geometry)}  # that of the file; the graph has none
-    places = sorted((scene.graph[node] for node in scene.graph.nodes_geometry), key=lambda place: order[place[1]])
+    # That of the file; the graph has none.
+    order = {name: place for place, name in enumerate(scene.geometry)}
+    places = sorted(
+        (scene.graph[node] for node in scene.graph.nodes_geometry),
+        key=lambda place: order[place[1]],
+    )
     surfaces: list[_Surface] = []
     for matrix, name in places:
         if hasattr(scene.geometry[name], "faces"):
@@ -87,7 +108,9 @@ def _column(name: str, values: Any, domain: Domain) -> Column:
     return Column(name, table, domain, meaning_of(name, width))
 
 
-def _polygons(surfaces: list[_Surface], of_scene: dict[str, Any], limits: Limits, received: int) -> Polygons:
+def _polygons(
+    surfaces: list[_Surface], of_scene: dict[str, Any], limits: Limits, received: int
+) -> Polygons:
     """Meshes of trimesh with their places and names as one."""
     meshes = [mesh for _, mesh, _ in surfaces]
     of_materials, numbers = _materials(meshes)
@@ -96,7 +119,9 @@ def _polygons(surfaces: list[_Surface], of_scene: dict[str, Any], limits: Limits
         for (matrix, mesh, name), materials in zip(surfaces, numbers, strict=True):
             faces = np.asarray(mesh.faces, np.int64)
             points, sizes = np.asarray(mesh.vertices, np.float64), np.full(len(faces), 3)
-            yield Part(points, sizes, faces.reshape(-1), [*_columns(mesh)], materials, name).placed(matrix)
+            yield Part(points, sizes, faces.reshape(-1), [*_columns(mesh)], materials, name).placed(
+                matrix
+            )
 
     counts = [(len(mesh.vertices), len(mesh.faces)) for mesh in meshes]
     joined = joined_parts(parts(), counts, limits, received)
@@ -107,7 +132,9 @@ def _polygons(surfaces: list[_Surface], of_scene: dict[str, Any], limits: Limits
     return replace(joined, metadata={**names, **metadata, **of_materials}, dropped=tuple(losses))
 
 
-def _metadata(meshes: list[Any], of_scene: dict[str, Any]) -> tuple[dict[str, Value], dict[str, None]]:
+def _metadata(
+    meshes: list[Any], of_scene: dict[str, Any]
+) -> tuple[dict[str, Value], dict[str, None]]:
     """What trimesh knows of a scene and its parts, and the names of what metadata cannot hold."""
     entries: dict[str, Value] = {}
     losses: dict[str, None] = {}

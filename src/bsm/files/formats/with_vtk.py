@@ -15,7 +15,13 @@ from typing import Any
 
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkLogger, vtkOutputWindow, vtkSMPTools, vtkStringArray, vtkStringOutputWindow
+from vtkmodules.vtkCommonCore import (
+    vtkLogger,
+    vtkOutputWindow,
+    vtkSMPTools,
+    vtkStringArray,
+    vtkStringOutputWindow,
+)
 from vtkmodules.vtkCommonDataModel import vtkGenericCell
 from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline as Pipeline
 from vtkmodules.vtkFiltersCore import vtkCellCenters, vtkTriangleFilter
@@ -27,7 +33,15 @@ from bsm.codec.geometry.attributes import Domain, Semantic
 from bsm.codec.geometry.welding import row_numbers
 from bsm.files.formats.cells import INSIDE, columns_of
 from bsm.files.formats.metadata import plain_fields
-from bsm.files.formats.polygons import GHOSTS, Column, Part, Polygons, joined_parts, polygon_normals, turned_corners
+from bsm.files.formats.polygons import (
+    GHOSTS,
+    Column,
+    Part,
+    Polygons,
+    joined_parts,
+    polygon_normals,
+    turned_corners,
+)
 from bsm.files.parsing import Doubles, Ints, as_library_error, require_counts
 from bsm.files.table import FORMATS
 
@@ -46,7 +60,8 @@ _BELOW = {
 """The members of sets of data that have others below."""
 _CELL = "vtkCell"
 _HIDDEN_CELL = 32  # a bit of the marks of ghosts
-MOST_CORNERS = 9  # of polygons that are compared, in a table: one of thousands would make it gigabytes
+# Of polygons that are compared, in a table: one of thousands would make it gigabytes.
+MOST_CORNERS = 9
 _SETTINGS = [*csv.DictReader((Path(__file__).parents[1] / "settings.csv").read_text().splitlines())]
 _NODE, _FINE = "vtkNode", 8
 """Numbers of points, by which faces are known in several blocks; the middle of a curved side has eighths of them."""
@@ -63,7 +78,8 @@ def read_vtk(
     output = vtkStringOutputWindow()
     vtkOutputWindow.SetInstance(output)
     vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_OFF)
-    vtkSMPTools.SetBackend("Sequential")  # a process that reads files from strangers may start no thread
+    # A process that reads files from strangers may start no thread.
+    vtkSMPTools.SetBackend("Sequential")
     size = Path(path).stat().st_size
     with as_library_error("VTK"):
         module = FORMATS[kind].modules[1]
@@ -86,8 +102,12 @@ def read_vtk(
         data = reader.GetOutputDataObject(0)
         words = _SAID.split(output.GetOutput())
         if "ERROR" in words or data is None:
-            reason = words[words.index("ERROR") + 1] if "ERROR" in words else "there is nothing in it"
-            raise FormatError(f"VTK cannot read this file, or one that it names: {' '.join(reason.split())}")
+            reason = (
+                words[words.index("ERROR") + 1] if "ERROR" in words else "there is nothing in it"
+            )
+            raise FormatError(
+                f"VTK cannot read this file, or one that it names: {' '.join(reason.split())}"
+            )
         losses |= dict.fromkeys(" ".join(text.split()) for text in words[2::2])
         sets = _Sets(data, losses) if is_exodus else None
         leaves = [*_leaves(data, "")]
@@ -156,7 +176,9 @@ class _Sets:
         if len(self._faces) + len(self._points) >= _MOST_SETS:
             losses[f"the {kind} {set_name}"] = None
         elif kind == "node set":
-            self._points[set_name] = _FINE * vtk_to_numpy(leaf.GetPointData().GetArray("GlobalNodeId"))
+            self._points[set_name] = _FINE * vtk_to_numpy(
+                leaf.GetPointData().GetArray("GlobalNodeId")
+            )
         elif part is not None:
             self._faces[set_name] = _nodes_of_faces(part)
         else:
@@ -220,7 +242,9 @@ def _opened(reader: Any, kind: str, size: int, limits: Limits) -> tuple[float, .
     for what in _ALL_OF:
         getattr(reader, f"EnableAll{what}", int)()
     if kind == "foam":  # the patches are the skin of what is inside
-        names = [reader.GetPatchArrayName(place) for place in range(reader.GetNumberOfPatchArrays())]
+        names = [
+            reader.GetPatchArrayName(place) for place in range(reader.GetNumberOfPatchArrays())
+        ]
         for name in names:
             reader.SetPatchArrayStatus(name, int(name != "internalMesh" or len(names) == 1))
     if hasattr(reader, "SetAllArrayStatus"):  # of Exodus
@@ -236,7 +260,9 @@ def _opened(reader: Any, kind: str, size: int, limits: Limits) -> tuple[float, .
     if data is not None and data.IsA("vtkImageData") and min(counts, default=0) > 1:
         raise FormatError(f"this is an image of {what} points; extract a contour, e.g. in ParaView")
     if points > max(size, 1):
-        raise FormatError(f"this is a grid of {what} points in {size} bytes; extract a surface, e.g. in ParaView")
+        raise FormatError(
+            f"this is a grid of {what} points in {size} bytes; extract a surface, e.g. in ParaView"
+        )
     if min(counts, default=0) == 1:
         require_counts(limits, vertices=points)
     if not about.Has(Pipeline.TIME_STEPS()):
@@ -276,7 +302,8 @@ def _part(data: Any, name: str, losses: dict[str, None]) -> Part | None:
         points.AddArray(plain)
     if not data.IsA("vtkPolyData"):
         numbers = numpy_to_vtk(np.arange(data.GetNumberOfCells(), dtype=np.int64), deep=True)
-        numbers.SetName(_CELL)  # where cells are curved, those that the filter passes count something else
+        # Where cells are curved, those that the filter passes count something else.
+        numbers.SetName(_CELL)
         data.GetCellData().AddArray(numbers)
         surface = _through(vtkDataSetSurfaceFilter(), data)
     hidden = _count_hidden(data)
@@ -294,7 +321,9 @@ def _part(data: Any, name: str, losses: dict[str, None]) -> Part | None:
     return _surface_part(data, surface, cells_before, losses, name)
 
 
-def _surface_part(data: Any, surface: Any, cells_before: int, losses: dict[str, None], name: str) -> Part:
+def _surface_part(
+    data: Any, surface: Any, cells_before: int, losses: dict[str, None], name: str
+) -> Part:
     """The polygons of a surface, whose cells follow so many points and lines, with their columns.
 
     A surface that is meshed along with its volume is the skin there: the sides of the volume go.
@@ -319,12 +348,17 @@ def _surface_part(data: Any, surface: Any, cells_before: int, losses: dict[str, 
     of_points, of_cells = surface.GetPointData(), surface.GetCellData()
     values = dict(_arrays(of_points, losses))
     columns = [*_columns(of_points, values, "vertex", losses)]
-    values = {array_name: array[cells_before:][rows_kept] for array_name, array in _arrays(of_cells, losses)}
+    values = {
+        array_name: array[cells_before:][rows_kept]
+        for array_name, array in _arrays(of_cells, losses)
+    }
     columns += _columns(of_cells, values, "face", losses)
     return Part(positions, sizes, corners, columns, np.zeros(len(sizes), np.int64), name)
 
 
-def _columns(attributes: Any, values: dict[str, Any], domain: Domain, losses: dict[str, None]) -> Iterator[Column]:
+def _columns(
+    attributes: Any, values: dict[str, Any], domain: Domain, losses: dict[str, None]
+) -> Iterator[Column]:
     active: dict[str, Semantic] = {}
     if attributes.GetTCoords() is not None:
         active[attributes.GetTCoords().GetName()] = "texcoord"

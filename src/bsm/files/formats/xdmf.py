@@ -31,7 +31,13 @@ _CELLS = {
     41: "wedge18", 48: "hex20 hexahedron20", 50: "hex27 hexahedron27",
 }  # fmt: skip
 """Kinds of cells by their numbers in mixed topologies: names, and how many points they have."""
-_SHORT = {"tri": "triangle", "tet": "tetra", "tetrahedron": "tetra", "quadrilateral": "quad", "hex": "hexahedron"}
+_SHORT = {
+    "tri": "triangle",
+    "tet": "tetra",
+    "tetrahedron": "tetra",
+    "quadrilateral": "quad",
+    "hex": "hexahedron",
+}
 _COUNTED = (1, 2, 3)  # kinds with a number of points before these
 _KNOWN = ("Topology", "Geometry", "Attribute", "Time", "Information", "Grid", "DataItem")
 _TIMES = ("List", "HyperSlab", "Single")
@@ -82,7 +88,9 @@ class _Grids:
     def _find(self, pointer: str) -> Any:
         """Return the elements that a path leads to; paths in paths may take longer than any file is worth."""
         if len(pointer) > _LONGEST_PATH or not _PATH.fullmatch(pointer):
-            raise FormatError(f"this XDMF refers to {pointer[:80]}, which is more than a path; {_WAY}")
+            raise FormatError(
+                f"this XDMF refers to {pointer[:80]}, which is more than a path; {_WAY}"
+            )
         return self.root.xpath(pointer)
 
     def _copies(self, elements: Iterable[Any]) -> list[Any]:
@@ -98,7 +106,9 @@ class _Grids:
         """The numbers of the data item in an element."""
         items = parent.findall("DataItem")
         if len(items) != 1:
-            raise FormatError(f"{parent.tag} {parent.get('Name', '')} has {len(items)} data items; {_WAY}")
+            raise FormatError(
+                f"{parent.tag} {parent.get('Name', '')} has {len(items)} data items; {_WAY}"
+            )
         return self._item(items[0])
 
     def _item(self, item: Any) -> Any:
@@ -145,8 +155,13 @@ class _Grids:
         series = [grid for grid in grids if grid.get("CollectionType") == "Temporal"]
         if not series:
             return [(0.0, grids)]
-        steps = [(time, [grid]) for time, grid in zip(self._times(series[0]), series[0].findall("Grid"), strict=True)]
-        others = [grid for grid in grids if grid not in series and grid.find("Attribute") is not None]
+        steps = [
+            (time, [grid])
+            for time, grid in zip(self._times(series[0]), series[0].findall("Grid"), strict=True)
+        ]
+        others = [
+            grid for grid in grids if grid not in series and grid.find("Attribute") is not None
+        ]
         for grid in series[1:]:
             if self._times(grid) == [time for time, _ in steps]:
                 for (_, grids_of_step), step in zip(steps, grid.findall("Grid"), strict=True):
@@ -163,7 +178,9 @@ class _Grids:
 
     def _complete(self, grids: Sequence[Any]) -> None:
         """Give grids without a mesh that of the first grid which has one."""
-        model = next((grid for grid in self.root.iter("Grid") if grid.find("Topology") is not None), None)
+        model = next(
+            (grid for grid in self.root.iter("Grid") if grid.find("Topology") is not None), None
+        )
         if model is None:
             return
         for grid in grids:
@@ -219,9 +236,15 @@ class _Grids:
     def _leaves(self, grid: Any) -> list[Any]:
         for child in grid:
             if child.tag not in _KNOWN:
-                raise FormatError(f"this XDMF has the element {child.tag}, which is not known here; {_WAY}")
+                raise FormatError(
+                    f"this XDMF has the element {child.tag}, which is not known here; {_WAY}"
+                )
         kind = grid.get("GridType", "Uniform")
-        if grid.get("CollectionType") == "Temporal" or kind not in ("Uniform", "Collection", "Tree"):
+        if grid.get("CollectionType") == "Temporal" or kind not in (
+            "Uniform",
+            "Collection",
+            "Tree",
+        ):
             raise FormatError(f"this XDMF has grids of the kind {kind} in others; {_WAY}")
         if kind == "Uniform":
             return [grid]

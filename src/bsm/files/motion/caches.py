@@ -36,7 +36,8 @@ class Cache:
     start: int
     kind: str
     rate: float = 0.0
-    timing: dict[str, float | str] | None = None  # as metadata; None: the times in the file are invalid
+    # As metadata; None: the times in the file are invalid.
+    timing: dict[str, float | str] | None = None
 
 
 def read_cache(path: str, kind: str, request: Wanted, limits: Limits) -> Frames:
@@ -96,7 +97,9 @@ def _head_of_mdd(file: BinaryIO, size: int, rate: float) -> Cache:
     frames, points = _MDD.unpack(head)
     start = _MDD.size + 4 * max(frames, 0)
     if size < start:
-        raise TruncatedError(f"the MDD file claims {frames} frames, whose times take {start} bytes; it has {size}")
+        raise TruncatedError(
+            f"the MDD file claims {frames} frames, whose times take {start} bytes; it has {size}"
+        )
     times = _doubles(file.read(start - _MDD.size), ">f4")
     return Cache(points, frames, start, ">f4", *timing_of(times, rate))
 
@@ -122,11 +125,17 @@ def mesh_beside(path: str) -> str:
         if os.path.isfile(name):
             return name
     usual_name = Path(mesh_of(path)).name
-    raise MeshError(f"a cache holds points and no faces: put the mesh beside it ({usual_name}), or name it with --mesh")
+    raise MeshError(
+        f"a cache holds points and no faces: put the mesh beside it ({usual_name}), or name it with --mesh"
+    )
 
 
 def write_cache(
-    file: BinaryIO, kind: str, codes: Sequence[float], frames: Iterable[Positions], rate: float = 0.0
+    file: BinaryIO,
+    kind: str,
+    codes: Sequence[float],
+    frames: Iterable[Positions],
+    rate: float = 0.0,
 ) -> None:
     """Write a cache of frames with these time codes, at a frame rate."""
     single, count = "<f4" if kind == "pc2" else ">f4", len(codes)
@@ -139,7 +148,9 @@ def write_cache(
             file.write(_MDD.pack(count, len(frame)) + times.astype(">f4").tobytes())
         # Beyond it a coordinate would become infinite without a word.
         if np.abs(frame).max() > np.finfo(np.float32).max:
-            raise MeshError(f"a coordinate of frame {number} is beyond single precision, which {kind.upper()} has")
+            raise MeshError(
+                f"a coordinate of frame {number} is beyond single precision, which {kind.upper()} has"
+            )
         file.write(np.ascontiguousarray(frame, single).tobytes())
 
 

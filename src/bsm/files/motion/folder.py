@@ -21,7 +21,15 @@ from bsm.bitstream.errors import FormatError, MeshError, OptionError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.geometry.attributes import Attribute, has
 from bsm.codec.geometry.mesh import NoFacesError, TriangleMesh
-from bsm.codec.sequence.runs import EMPTY, SHOWN, can_move, empty_frame, is_empty, moved_to, other_faces
+from bsm.codec.sequence.runs import (
+    EMPTY,
+    SHOWN,
+    can_move,
+    empty_frame,
+    is_empty,
+    moved_to,
+    other_faces,
+)
 from bsm.files.conventions import TIME_VALUE
 from bsm.files.formats.metadata import Written
 from bsm.files.formats.polygons import CutAlike, MeshFile, Polygons
@@ -31,17 +39,22 @@ from bsm.files.pipes import about, file_beside, is_pipe, is_url, refuse_link_out
 from bsm.files.table import FORMATS, MESH_SUFFIXES, START, STEP
 
 # A sign counts in names such as t_-5, while step-5 has a hyphen.
-_NUMBERS = re.compile(r"((?:(?<![^\W_])-)?\d+)")  # a "-" that follows a letter or a digit is a hyphen
+# A "-" that follows a letter or a digit is a hyphen.
+_NUMBERS = re.compile(r"((?:(?<![^\W_])-)?\d+)")
 _SIGNED, _UNITS = re.compile(r"-?\d+"), re.compile(r"\d([fpnuµm]?s|min|h)(?![^\W_])")
 # Fortran writes 1.0D-05; without the point, it is a name such as model3d-01.
-_DECIMALS = re.compile(r"((?:(?<![^\W_])-)?(?:\d*\.\d+[dD][-+]\d+|(?:\d+(?:\.\d+)?|(?<![^_])\.\d+)(?:[eE][-+]?\d+)?))")
+_DECIMALS = re.compile(
+    r"((?:(?<![^\W_])-)?(?:\d*\.\d+[dD][-+]\d+|(?:\d+(?:\.\d+)?|(?<![^_])\.\d+)(?:[eE][-+]?\d+)?))"
+)
 _PLACE = re.compile(r"%(0?)(\d*)d|(##+)")
 """The place of a frame's number in a pattern: %04d, or #### as animation programs write it."""
 
 
 def names_many(path: str) -> bool:
     """Whether a path is that of a folder, or a pattern: ``run/*.obj``, ``run/%04d.obj`` or ``run/####.obj``."""
-    return os.path.isdir(path) or ((glob.has_magic(path) or is_numbered(path)) and not os.path.exists(path))
+    return os.path.isdir(path) or (
+        (glob.has_magic(path) or is_numbered(path)) and not os.path.exists(path)
+    )
 
 
 def mesh_files(path: str) -> list[str]:
@@ -58,7 +71,9 @@ def frame_files(path: str, *, follow: bool = True) -> list[str]:
     """The mesh files of a folder or pattern, by the numbers in their names; `follow` links to other folders."""
     names = mesh_files(path)
     if not names:
-        raise FormatError(f"no mesh files in {path} ({', '.join(MESH_SUFFIXES)}); -r looks in the folders below, too")
+        raise FormatError(
+            f"no mesh files in {path} ({', '.join(MESH_SUFFIXES)}); -r looks in the folders below, too"
+        )
     # A process that reads files from strangers could open the folders of links, too.
     if not follow:
         for name in names:
@@ -87,8 +102,12 @@ def separate_meshes(path: str, file_format: str | None = None) -> list[str]:
         cut = CutAlike()
         # The first and the last, since scans of different things rarely agree, and frames always do: reading all would
         # take as long as the job itself.
-        first, last = (read_cut(name, file_format, DEFAULT_LIMITS, cut).mesh for name in (names[0], names[-1]))
-        if first.positions.shape == last.positions.shape and np.array_equal(first.faces, last.faces):
+        first, last = (
+            read_cut(name, file_format, DEFAULT_LIMITS, cut).mesh for name in (names[0], names[-1])
+        )
+        if first.positions.shape == last.positions.shape and np.array_equal(
+            first.faces, last.faces
+        ):
             return []
     return names
 
@@ -153,7 +172,9 @@ def in_order(names: Sequence[str]) -> list[str]:
         place = int(np.argmax(steps != steps.min()))
         missing = numbers[place] + int(steps.min())
         between = f"between {ordered[place]} and {ordered[place + 1]}"
-        raise MeshError(f"frame {missing} is missing {between}; add it, or number the files without a gap")
+        raise MeshError(
+            f"frame {missing} is missing {between}; add it, or number the files without a gap"
+        )
     return ordered
 
 
@@ -172,11 +193,15 @@ def _require_one_series(ordered: Sequence[str]) -> None:
         names_by_series.setdefault(_DECIMALS.sub("#", stem), []).append(name)
     for names in names_by_stem.values():
         if len(names) > 1:
-            raise MeshError(f"{names[0]} and {names[1]} are two files for one frame; name the files of one format")
+            raise MeshError(
+                f"{names[0]} and {names[1]} are two files for one frame; name the files of one format"
+            )
     series = [*names_by_series.values()]
     if len(series) > 1 and all(len(names) > 1 for names in series):
         those = " and ".join(map(common_name, series[:2]))
-        raise MeshError(f"these files are {len(series)} series of frames, {those}; name the files of one, as a pattern")
+        raise MeshError(
+            f"these files are {len(series)} series of frames, {those}; name the files of one, as a pattern"
+        )
 
 
 # A wrong guess still gives an animation, which jerks for no visible reason; so names that can be read in two
@@ -251,10 +276,13 @@ def _numbers(ordered: Sequence[str]) -> list[int]:
     return [] if place is None else [int(row[place]) for row in rows]
 
 
-def read_files(names: Sequence[str], read_named: Callable[[str], MeshFile], request: Wanted) -> Frames:
+def read_files(
+    names: Sequence[str], read_named: Callable[[str], MeshFile], request: Wanted
+) -> Frames:
     """The frames in files, each read when asked for; with `runs`, faces change. Times: wanted, in files, or numbers."""
     runs, rate, times = request.runs, request.rate, request.times
-    read_once, notes = lru_cache(maxsize=1)(read_named), list[str]()  # a list may name one file for many times
+    # A list may name one file for many times.
+    read_once, notes = lru_cache(maxsize=1)(read_named), list[str]()
 
     def read(number: int) -> TriangleMesh:
         with about(f"{names[number]} (frame {number})"):
@@ -290,14 +318,20 @@ def read_files(names: Sequence[str], read_named: Callable[[str], MeshFile], requ
     if count > 1 and still:
         of_runs = "of each run " if runs else ""
         notes.append(f"{', '.join(still)}: as the first frame {of_runs}has them")
-    changes = runs or len(still) < len(attributes) or any(name.startswith(SHOWN) for name in first.metadata)
+    changes = (
+        runs
+        or len(still) < len(attributes)
+        or any(name.startswith(SHOWN) for name in first.metadata)
+    )
 
     def meshes() -> Iterator[TriangleMesh]:
         yield first if runs else replace(first, attributes=attributes)
         for number in range(1, count):
             mesh = read(number)
             if not runs:
-                mesh = _with_faces_of(first, names[0], attributes, mesh, f"{names[number]} (frame {number})")
+                mesh = _with_faces_of(
+                    first, names[0], attributes, mesh, f"{names[number]} (frame {number})"
+                )
             yield mesh
 
     positions = (mesh.positions for mesh in meshes())
@@ -305,7 +339,9 @@ def read_files(names: Sequence[str], read_named: Callable[[str], MeshFile], requ
     return Frames(first.faces, count, positions, *shared, meshes() if changes else None)
 
 
-def _attributes_in_all(first: TriangleMesh, last: TriangleMesh, notes: list[str]) -> tuple[Attribute, ...]:
+def _attributes_in_all(
+    first: TriangleMesh, last: TriangleMesh, notes: list[str]
+) -> tuple[Attribute, ...]:
     """Return the attributes of the first frame that the last one has, too; note the others."""
     attributes: list[Attribute] = []
     normals: list[str] = []
@@ -320,14 +356,20 @@ def _attributes_in_all(first: TriangleMesh, last: TriangleMesh, notes: list[str]
         else:
             others.append(attribute.name)
     if normals:
-        notes.append(f"left out: {', '.join(normals)}; a sequence has no normals, which follow from positions")
+        notes.append(
+            f"left out: {', '.join(normals)}; a sequence has no normals, which follow from positions"
+        )
     if others:
         notes.append(f"left out, for they move or change: {', '.join(others)}")
     return tuple(attributes)
 
 
 def read_steps(
-    surface: Callable[[int], Polygons], times: Sequence[float], size: int, request: Wanted, limits: Limits
+    surface: Callable[[int], Polygons],
+    times: Sequence[float],
+    size: int,
+    request: Wanted,
+    limits: Limits,
 ) -> Frames | None:
     """The steps in a file of so many bytes as frames; None if it has fewer than two."""
     if len(times) < 2:
@@ -341,7 +383,11 @@ def read_steps(
 
 
 def _with_faces_of(
-    first: TriangleMesh, of_first: str, attributes: Sequence[Attribute], mesh: TriangleMesh, name: str
+    first: TriangleMesh,
+    of_first: str,
+    attributes: Sequence[Attribute],
+    mesh: TriangleMesh,
+    name: str,
 ) -> TriangleMesh:
     """A frame with the attributes that are kept; an error if its faces are not those of the first one."""
     difference = other_faces(first, mesh)
@@ -373,7 +419,9 @@ def listed(path: str, kind: str, limits: Limits) -> tuple[list[str], list[float]
     data = Path(path).read_bytes()
     try:
         if kind == "series":
-            rows = [(float(entry["time"]), str(entry["name"])) for entry in json.loads(data)["files"]]
+            rows = [
+                (float(entry["time"]), str(entry["name"])) for entry in json.loads(data)["files"]
+            ]
         else:
             from bsm.files.formats.vtp import elements_of  # which loads a parser of XML
 
@@ -382,8 +430,17 @@ def listed(path: str, kind: str, limits: Limits) -> tuple[list[str], list[float]
         if not all(math.isfinite(time) for time, _ in rows):
             raise ValueError("a time is not finite")
     # JSON may hold anything in any place, and nested lists end the recursion of its parser.
-    except (ValueError, TypeError, KeyError, AttributeError, OverflowError, RecursionError) as error:
-        raise FormatError(f"this is not a .{kind} file of ParaView: {type(error).__name__}: {error}") from error
+    except (
+        ValueError,
+        TypeError,
+        KeyError,
+        AttributeError,
+        OverflowError,
+        RecursionError,
+    ) as error:
+        raise FormatError(
+            f"this is not a .{kind} file of ParaView: {type(error).__name__}: {error}"
+        ) from error
     counts = Counter(time for time, _ in sorted(rows, key=lambda row: row[0]))
     different = len(counts) if kind == "series" else len(set(rows))
     if not rows or different < len(rows):
@@ -433,7 +490,9 @@ def _number_at(number: int, place: re.Match[str]) -> str:
 
 
 @contextmanager
-def write_files(path: str, kind: str, *, overwrite: bool) -> Iterator[Callable[[TriangleMesh, int], tuple[str, ...]]]:
+def write_files(
+    path: str, kind: str, *, overwrite: bool
+) -> Iterator[Callable[[TriangleMesh, int], tuple[str, ...]]]:
     """A file for each frame: in a folder, or called by a pattern; files that were written are removed after an error"""
     pattern = Path(path) if is_numbered(path) else Path(path, f"%05d.{kind}")
     if not is_numbered(pattern.name):

@@ -36,16 +36,21 @@ class Frames:
     frame_rate: float = 0.0
     metadata: Metadata = field(default_factory=dict)
     meshes: Iterator[TriangleMesh] | None = None
-    rigged: int = 0  # vertices of the mesh that plays them, whose number and order count, of a cache of points
+    # Vertices of the mesh that plays them, whose number and order count, of a cache of points.
+    rigged: int = 0
 
     def __post_init__(self) -> None:
         # Checked while they are read: a sequence may be larger than the memory, and most readers go through it once.
-        object.__setattr__(self, "frames", self._checked(self.frames, int(self.faces.max(initial=0))))
+        object.__setattr__(
+            self, "frames", self._checked(self.frames, int(self.faces.max(initial=0)))
+        )
 
     def between(self, first: int, last: int) -> "Frames":
         """Return the frames from `first` on, up to `last`, which is not among them."""
         if self.meshes is not None:
-            raise OptionError("the faces of this sequence change; write its frames as files, and name those")
+            raise OptionError(
+                "the faces of this sequence change; write its frames as files, and name those"
+            )
         count = len(range(self.count)[first:last])
         return replace(self, frames=islice(self.frames, first, last), count=count)
 
@@ -55,13 +60,19 @@ class Frames:
         for number, frame in enumerate(frames):
             vertices = vertices or len(frame)
             if last >= vertices:
-                raise MeshError(f"frame {number} has {vertices} of the {last + 1} vertices that faces need")
+                raise MeshError(
+                    f"frame {number} has {vertices} of the {last + 1} vertices that faces need"
+                )
             if len(frame) != vertices:
-                raise MeshError(f"frame {number} has {len(frame)} vertices, and the first one has {vertices}")
+                raise MeshError(
+                    f"frame {number} has {len(frame)} vertices, and the first one has {vertices}"
+                )
             finite = np.isfinite(frame)
             if not finite.all():
                 row = int(np.argmin(finite.all(axis=1)))
-                raise MeshError(f"vertex {row} of frame {number} has a coordinate that is not finite; repair it")
+                raise MeshError(
+                    f"vertex {row} of frame {number} has a coordinate that is not finite; repair it"
+                )
             yield frame
         if not vertices:
             raise MeshError("a sequence needs at least one frame")
@@ -113,7 +124,8 @@ class Shared:
     metadata: Callable[[], Metadata] = dict
     left_out: list[str] = field(default_factory=list)
     first: int = 0
-    held: frozenset[str] = frozenset()  # metadata that the times of frames say, or the numbers in their names
+    # Metadata that the times of frames say, or the numbers in their names.
+    held: frozenset[str] = frozenset()
     _begun: dict[str, Attribute] = field(default_factory=dict)
 
     @property
@@ -135,7 +147,9 @@ class Shared:
     @property
     def numbered(self) -> bool:
         """Whether frames are shown at whole numbers of frames, which names can have."""
-        return TIMES not in self.metadata() and self.code(0).is_integer() and self.code(1).is_integer()
+        return (
+            TIMES not in self.metadata() and self.code(0).is_integer() and self.code(1).is_integer()
+        )
 
     def timed(self, mesh: TriangleMesh, number: int) -> TriangleMesh:
         """Return a frame with its time, if that is known."""
@@ -144,7 +158,9 @@ class Shared:
         time = self.code(number) / (self.frame_rate or USUAL_RATE)
         return replace(mesh, metadata={**mesh.metadata, TIME_VALUE: time})
 
-    def mesh(self, positions: Positions, faces: Faces, *, with_metadata: bool = True) -> TriangleMesh:
+    def mesh(
+        self, positions: Positions, faces: Faces, *, with_metadata: bool = True
+    ) -> TriangleMesh:
         metadata: dict[str, str | int | float | bytes] = {}
         for name, value in self.metadata().items():
             # The names of properties are those of every file.
@@ -165,7 +181,11 @@ class Shared:
 
 def painted_like(first: TriangleMesh, mesh: TriangleMesh) -> TriangleMesh:
     """A frame whose colors are of the kind of the first one's: bytes, or floats from 0 to 1."""
-    kinds = {attribute.name: attribute.values.dtype for attribute in first.attributes if attribute.semantic == "color"}
+    kinds = {
+        attribute.name: attribute.values.dtype
+        for attribute in first.attributes
+        if attribute.semantic == "color"
+    }
     attributes: list[Attribute] = []
     for attribute in mesh.attributes:
         kind = kinds.get(attribute.name, attribute.values.dtype)

@@ -37,7 +37,9 @@ def atlas(mesh: bsm.TriangleMesh) -> bsm.Attribute:
 
 def normals(mesh: bsm.TriangleMesh) -> bsm.Attribute:
     flat = face_normals(mesh.positions, mesh.faces)
-    return bsm.Attribute("normal", np.repeat(flat, 3, axis=0).astype(np.float32), "corner", "normal")
+    return bsm.Attribute(
+        "normal", np.repeat(flat, 3, axis=0).astype(np.float32), "corner", "normal"
+    )
 
 
 def dressed(mesh: bsm.TriangleMesh) -> bsm.TriangleMesh:
@@ -59,7 +61,9 @@ def dressed(mesh: bsm.TriangleMesh) -> bsm.TriangleMesh:
     return replace(mesh, attributes=attributes, metadata={"name": "thing", "unit": "mm", "n": 3})
 
 
-def compared(given: bsm.TriangleMesh, decoded: bsm.TriangleMesh, encoder: bsm.Encoder) -> dict[str, float]:
+def compared(
+    given: bsm.TriangleMesh, decoded: bsm.TriangleMesh, encoder: bsm.Encoder
+) -> dict[str, float]:
     """Largest error of each attribute, wherever its corners have come to be."""
     errors = {}
     order = encoder.vertex_order
@@ -71,8 +75,12 @@ def compared(given: bsm.TriangleMesh, decoded: bsm.TriangleMesh, encoder: bsm.En
         positions = given.positions[given.faces[encoder.face_order]]
         best = np.full(len(had), np.inf)
         for turn in range(3):
-            fits = (np.roll(positions, -turn, axis=1) == given.positions[order[decoded.faces]]).all(axis=(1, 2))
-            off = np.abs(np.roll(wanted, -turn, axis=1).astype(float) - had.astype(float)).max(axis=(1, 2))
+            fits = (np.roll(positions, -turn, axis=1) == given.positions[order[decoded.faces]]).all(
+                axis=(1, 2)
+            )
+            off = np.abs(np.roll(wanted, -turn, axis=1).astype(float) - had.astype(float)).max(
+                axis=(1, 2)
+            )
             best = np.where(fits, np.minimum(best, off), best)
         errors[attribute.name] = float(best.max())
     return errors
@@ -91,23 +99,33 @@ EXACT = {"uv": "12bits", "color": "exact"}
     ],
     ids=["blocks", "grid", "blocks in order", "grid in order"],
 )
-@pytest.mark.parametrize("shape", [patch(30, 24), torus(), tetrahedron()], ids=["patch", "torus", "tetrahedron"])
+@pytest.mark.parametrize(
+    "shape", [patch(30, 24), torus(), tetrahedron()], ids=["patch", "torus", "tetrahedron"]
+)
 def test_everything_comes_back(shape, options):
     mesh = dressed(shape)
-    encoder = bsm.Encoder(mesh, replace(options, normals="keep", attributes={} if options.grid else EXACT))
+    encoder = bsm.Encoder(
+        mesh, replace(options, normals="keep", attributes={} if options.grid else EXACT)
+    )
     decoded = bsm.decode(encoder.encode())
     errors = compared(mesh, decoded, encoder)
     fine = options.grid is not None
     assert errors["color"] == errors["group"] == 0.0
-    assert errors["uv"] <= 0.51 * np.ptp(mesh.attributes[1].values, axis=0).max() / (2 ** (14 if fine else 12) - 1)
+    assert errors["uv"] <= 0.51 * np.ptp(mesh.attributes[1].values, axis=0).max() / (
+        2 ** (14 if fine else 12) - 1
+    )
     assert errors["normal"] <= (0.002 if fine else 0.006)
     assert errors["heat"] <= 2.0 / (2 ** (20 if fine else 16) - 1)
     assert errors["wild"] <= 8.0 / (2**16 - 1)
     assert dict(decoded.metadata) == dict(mesh.metadata)
-    assert [attribute.name for attribute in decoded.attributes] == [attribute.name for attribute in mesh.attributes]
+    assert [attribute.name for attribute in decoded.attributes] == [
+        attribute.name for attribute in mesh.attributes
+    ]
     if options.keep_order:
         assert (decoded.faces == mesh.faces).all()
-        assert [attribute.domain for attribute in decoded.attributes] == [a.domain for a in mesh.attributes]
+        assert [attribute.domain for attribute in decoded.attributes] == [
+            a.domain for a in mesh.attributes
+        ]
     assert any("uv: texcoord per corner" in note for note in encoder.notes)
 
 
@@ -120,7 +138,10 @@ def test_split_files_come_back_split():
     assert max(compared(mesh, decoded, encoder).values()) < 0.002
     again = split_by_attributes(decoded)
     sent = {"color", "uv", "normal", "heat", "wild"}
-    assert len(again.positions) <= len(mesh.positions) and {attribute.name for attribute in again.attributes} >= sent
+    assert (
+        len(again.positions) <= len(mesh.positions)
+        and {attribute.name for attribute in again.attributes} >= sent
+    )
     assert all(attribute.domain != "corner" for attribute in again.attributes)
 
 
@@ -130,7 +151,9 @@ def test_split_files_come_back_with_their_indices():
         np.concatenate([mesh.positions, [[7.0, 7, 7], [8, 8, 8]]]),
         mesh.faces,
         tuple(
-            replace(a, values=np.concatenate([a.values, a.values[:2]])) if a.domain == "vertex" else a
+            replace(a, values=np.concatenate([a.values, a.values[:2]]))
+            if a.domain == "vertex"
+            else a
             for a in mesh.attributes
         ),
     )
@@ -146,9 +169,13 @@ def test_split_files_come_back_with_their_indices():
 def test_whole_numbers_are_exact(kind, domain):
     mesh = patch(9, 7)
     bounds = np.iinfo(kind)
-    count = {"vertex": len(mesh.positions), "corner": mesh.faces.size, "face": len(mesh.faces)}[domain]
+    count = {"vertex": len(mesh.positions), "corner": mesh.faces.size, "face": len(mesh.faces)}[
+        domain
+    ]
     random = np.random.default_rng(1)
-    values = random.integers(bounds.min, bounds.max, (count, 4), dtype=np.int64, endpoint=True).astype(kind)
+    values = random.integers(
+        bounds.min, bounds.max, (count, 4), dtype=np.int64, endpoint=True
+    ).astype(kind)
     values[:2] = [[bounds.min] * 4, [bounds.max] * 4]
     whole = replace(mesh, attributes=(bsm.Attribute("x", values, domain),))
     decoded = bsm.decode(bsm.encode(whole, replace(QUICK, keep_order=True)))
@@ -163,8 +190,12 @@ def test_floats_are_exact_to_the_bit(kind):
     random = np.random.default_rng(2)
     values = (random.normal(size=(63, 4)) * 10.0 ** random.integers(-30, 30, (63, 4))).astype(kind)
     values[0] = [0.0, -0.0, np.finfo(kind).max, -np.finfo(kind).tiny]
-    given = replace(mesh, attributes=(bsm.Attribute("x", values), bsm.Attribute("half", np.arange(63) / 255.0)))
-    decoded = bsm.decode(bsm.encode(given, replace(QUICK, keep_order=True, attributes={"*": "exact"})))
+    given = replace(
+        mesh, attributes=(bsm.Attribute("x", values), bsm.Attribute("half", np.arange(63) / 255.0))
+    )
+    decoded = bsm.decode(
+        bsm.encode(given, replace(QUICK, keep_order=True, attributes={"*": "exact"}))
+    )
     assert decoded.attributes[0].values.tobytes() == values.tobytes()
     assert (decoded.attributes[1].values == given.attributes[1].values).all()
 
@@ -193,22 +224,30 @@ def test_bounds_leave_room_for_rounding_to_single_precision(least):
     spacing = float(np.spacing(np.float32(max(abs(least), least + 80.0))))
     heat = (least + 80.0 * max(spacing, 1.0) * random.random(count)).astype(np.float32)
     strip = np.arange(count - 2)[:, None] + np.arange(3)
-    positions = np.column_stack([np.arange(count) // 2, np.arange(count) % 2, np.zeros(count)]).astype(float)
+    positions = np.column_stack(
+        [np.arange(count) // 2, np.arange(count) % 2, np.zeros(count)]
+    ).astype(float)
     mesh = bsm.TriangleMesh(positions, strip.astype(np.int32), (bsm.Attribute("heat", heat),), {})
     for bound in (1e-9, 0.4 * spacing, 0.6 * spacing, spacing, 3.1 * spacing, 1000.0 * spacing):
-        encoder = bsm.Encoder(mesh, bsm.EncodeOptions(grid=16, effort="quick", attributes={"heat": repr(bound)}))
+        encoder = bsm.Encoder(
+            mesh, bsm.EncodeOptions(grid=16, effort="quick", attributes={"heat": repr(bound)})
+        )
         decoded = bsm.decode(encoder.encode())
         own = heat[encoder.vertex_order].astype(float)
         assert np.abs(decoded.attributes[0].values[:, 0].astype(float) - own).max() <= bound
 
 
 @pytest.mark.real
-@pytest.mark.parametrize("name", ["BoxTextured.glb", "Duck.glb", "cortex_sulc.ply", "cubevc.glb", "fuze_uv.obj"])
+@pytest.mark.parametrize(
+    "name", ["BoxTextured.glb", "Duck.glb", "cortex_sulc.ply", "cubevc.glb", "fuze_uv.obj"]
+)
 def test_each_spelling_of_a_quality_is_kept_for_files(meshes, name):
     mesh = bsm.load(meshes / "assets" / name)
     floats = [a for a in mesh.attributes if a.values.dtype.kind == "f" and a.semantic != "normal"]
     for spelled in ("exact", "12bits", "0.01", "1%", "0.1%", "0.0001"):
-        options = replace(QUICK, effort="quick", attributes={attribute.name: spelled for attribute in floats})
+        options = replace(
+            QUICK, effort="quick", attributes={attribute.name: spelled for attribute in floats}
+        )
         decoded = bsm.decode(bsm.encode(mesh, options))
         assert len(decoded.attributes) == len(mesh.attributes), spelled
 
@@ -216,7 +255,9 @@ def test_each_spelling_of_a_quality_is_kept_for_files(meshes, name):
 @pytest.mark.parametrize("degrees", [10.0, 1.0, 0.05])
 def test_angles_of_normals_are_kept(degrees):
     mesh = dressed(torus())
-    encoder = bsm.Encoder(mesh, replace(QUICK, keep_order=True, attributes={"normal": f"{degrees}deg"}))
+    encoder = bsm.Encoder(
+        mesh, replace(QUICK, keep_order=True, attributes={"normal": f"{degrees}deg"})
+    )
     decoded = bsm.decode(encoder.encode())
     wanted, found = (at_corners(each, each.attributes[2]) for each in (mesh, decoded))
     off = np.degrees(np.arccos(np.clip((wanted.astype(float) * found).sum(axis=2), -1, 1)))
@@ -230,10 +271,17 @@ def smooth_normals(mesh: bsm.TriangleMesh) -> np.ndarray:
     return found / np.linalg.norm(found, axis=1, keepdims=True)
 
 
-@pytest.mark.parametrize("options", [bsm.EncodeOptions(), bsm.PRESETS["grid14"]], ids=["blocks", "grid"])
+@pytest.mark.parametrize(
+    "options", [bsm.EncodeOptions(), bsm.PRESETS["grid14"]], ids=["blocks", "grid"]
+)
 def test_normals_can_be_recomputed(options):
     mesh = torus()
-    smooth = replace(mesh, attributes=(bsm.Attribute("normal", np.ones((len(mesh.positions), 3)), "vertex", "normal"),))
+    smooth = replace(
+        mesh,
+        attributes=(
+            bsm.Attribute("normal", np.ones((len(mesh.positions), 3)), "vertex", "normal"),
+        ),
+    )
     stream = bsm.encode(smooth, replace(options, normals="recompute"))
     decoded = bsm.decode(stream)
     assert len(stream) < len(bsm.encode(mesh, replace(options, congruence=False))) + 40
@@ -243,7 +291,9 @@ def test_normals_can_be_recomputed(options):
 
 def test_recomputed_normals_keep_their_creases():
     mesh = replace(tetrahedron(), attributes=(normals(tetrahedron()),))
-    decoded = bsm.decode(bsm.encode(mesh, replace(bsm.PRESETS["grid14"], normals="recompute", keep_order=True)))
+    decoded = bsm.decode(
+        bsm.encode(mesh, replace(bsm.PRESETS["grid14"], normals="recompute", keep_order=True))
+    )
     np.testing.assert_allclose(
         at_corners(decoded, decoded.attributes[0]), at_corners(mesh, mesh.attributes[0]), atol=1e-6
     )
@@ -266,7 +316,9 @@ def test_the_look_chooses_normals(outwards, wild):
 
 
 @pytest.mark.parametrize("preset", ["near-lossless", "grid14"])
-@pytest.mark.parametrize(("tilt", "computed"), [(0.0, True), (0.9, True), (1.2, False), (None, False)])
+@pytest.mark.parametrize(
+    ("tilt", "computed"), [(0.0, True), (0.9, True), (1.2, False), (None, False)]
+)
 def test_near_normals_are_computed(preset, tilt, computed):
     """One vertex is tilted by some degrees, or has no length."""
     mesh = torus(60, 40)
@@ -278,7 +330,9 @@ def test_near_normals_are_computed(preset, tilt, computed):
         across /= np.linalg.norm(across)
         given[7] = np.cos(np.radians(tilt)) * given[7] + np.sin(np.radians(tilt)) * across
     normal = bsm.Attribute("normal", given, "vertex", "normal")
-    encoded = bsm.encode(replace(mesh, attributes=(normal,)), replace(bsm.PRESETS[preset], normals="near"))
+    encoded = bsm.encode(
+        replace(mesh, attributes=(normal,)), replace(bsm.PRESETS[preset], normals="near")
+    )
     declared = of_kind(encoded, packets.Declared)[0].declaration
     assert (declared.coding == RECOMPUTED) == computed
 
@@ -293,18 +347,29 @@ def test_texture_coordinates_and_shapes_keep_the_look_under_a_checker(preset):
     seen = AttributeLook(mesh, "texcoord", places).compare(decoded)
     assert seen <= bsm.PRESETS[preset].contract.look + 1e-3
     requested = bsm.encode(mesh, replace(bsm.PRESETS[preset], attributes={"uv": "14bits"}))
-    assert np.ptp(bsm.decode(requested).attributes[0].values) > 0.0 and len(encoder.encode()) < len(requested)
+    assert np.ptp(bsm.decode(requested).attributes[0].values) > 0.0 and len(encoder.encode()) < len(
+        requested
+    )
 
 
-@pytest.mark.parametrize(("kind", "domain"), [("uint8", "vertex"), ("float32", "corner"), ("uint16", "face")])
+@pytest.mark.parametrize(
+    ("kind", "domain"), [("uint8", "vertex"), ("float32", "corner"), ("uint16", "face")]
+)
 def test_colors_and_shapes_keep_the_look_in_colors(kind, domain):
     mesh = replace(torus(40, 30), attributes=())
     shades = 0.5 + 0.45 * np.sin(3 * mesh.positions @ np.array([[1, 2, 0], [0, 1, 3], [2, 0, 1]]))
-    rows = {"vertex": shades, "corner": shades[mesh.faces].reshape(-1, 3), "face": shades[mesh.faces[:, 0]]}[domain]
+    rows = {
+        "vertex": shades,
+        "corner": shades[mesh.faces].reshape(-1, 3),
+        "face": shades[mesh.faces[:, 0]],
+    }[domain]
     whole = 1 if kind == "float32" else np.iinfo(kind).max
     colors = bsm.Attribute("color", (rows * whole).astype(kind), domain, "color")
     mesh = replace(mesh, attributes=(colors,))
-    data, requested = bsm.encode(mesh), bsm.encode(mesh, bsm.EncodeOptions(attributes={"color": "exact"}))
+    data, requested = (
+        bsm.encode(mesh),
+        bsm.encode(mesh, bsm.EncodeOptions(attributes={"color": "exact"})),
+    )
     values = look_values(mesh, "color")
     assert np.ptp(values) > 0.8
     seen = AttributeLook(mesh, "color", values).compare(bsm.decode(data))
@@ -333,7 +398,9 @@ def test_textures_that_are_repeated_beyond_all_pictures_keep_twelve_bits():
     encoder = bsm.Encoder(mesh)
     errors = compared(mesh, bsm.decode(encoder.encode()), encoder)
     assert 0 < errors["uv"] <= 1.001 * np.ptp(values, axis=0).max() / 4095 / 2
-    far = bsm.Attribute("w", 1e300 * mesh.positions / np.abs(mesh.positions).max(), semantic="normal")
+    far = bsm.Attribute(
+        "w", 1e300 * mesh.positions / np.abs(mesh.positions).max(), semantic="normal"
+    )
     with pytest.raises(bsm.OptionError, match="keep them exact"):
         bsm.encode(replace(mesh, attributes=(far,)), attributes={"w": "1%"})
 
@@ -341,7 +408,9 @@ def test_textures_that_are_repeated_beyond_all_pictures_keep_twelve_bits():
 def test_texture_coordinates_in_whole_numbers_are_kept():
     mesh = torus(12, 8)
     whole = (1000 * (mesh.positions[:, :2] + 2)).astype(np.uint16)
-    decoded = bsm.decode(bsm.encode(replace(mesh, attributes=(bsm.Attribute("uv", whole, "vertex", "texcoord"),))))
+    decoded = bsm.decode(
+        bsm.encode(replace(mesh, attributes=(bsm.Attribute("uv", whole, "vertex", "texcoord"),)))
+    )
     assert set(map(tuple, decoded.attributes[0].values)) == set(map(tuple, whole))
 
 
@@ -380,10 +449,15 @@ def test_what_is_lost_of_one_attribute_spoils_none_before_it():
         name = mesh.attributes[packet.attribute].name
         names, *lost = tolerated(without(stream, packets.Values, which, "changed"))
         assert lost == [1, 0]
-        assert names - {name} == {attribute.name for attribute in mesh.attributes[: packet.attribute]}
+        assert names - {name} == {
+            attribute.name for attribute in mesh.attributes[: packet.attribute]
+        }
         frames = frames_of(stream)
         # decoders read four bytes ahead: so many may be missing without notice
-        short = [(kind, data[:-9] if data[0] == packet.attribute and kind == 0 else data) for kind, data in frames]
+        short = [
+            (kind, data[:-9] if data[0] == packet.attribute and kind == 0 else data)
+            for kind, data in frames
+        ]
         with pytest.raises(bsm.BsmError, match=f"attribute '{name}'"):
             bsm.decode(stream_of(short))
     names, losses, missing = tolerated(without(stream, packets.Grid, -1, "changed"))
@@ -417,7 +491,9 @@ def test_seams_that_two_share_are_sent_once():
 def test_targets_count_attributes(kind, value):
     mesh = dressed(torus())
     attempt = bsm.Encoder(mesh, bsm.EncodeOptions(target=bsm.Target(kind, value))).result()
-    assert [a.name for a in bsm.decode(b"".join(attempt.frames)).attributes] == [a.name for a in mesh.attributes]
+    assert [a.name for a in bsm.decode(b"".join(attempt.frames)).attributes] == [
+        a.name for a in mesh.attributes
+    ]
     assert attempt.size == len(b"".join(attempt.frames))
     assert attempt.size <= value if kind == "size" else attempt.comparison.theta_deg <= value
 
@@ -438,7 +514,9 @@ def test_any_triangles_keep_what_they_carry(seed, vertices, faces, ordered):
         bsm.Attribute("face", random.integers(-5, 5, (faces, 1)).astype(np.int8), "face"),
     )
     mesh = bsm.TriangleMesh(positions, triangles, attributes)
-    encoder = bsm.Encoder(mesh, bsm.EncodeOptions(grid=3, keep_order=ordered, attributes={"*": "exact"}))
+    encoder = bsm.Encoder(
+        mesh, bsm.EncodeOptions(grid=3, keep_order=ordered, attributes={"*": "exact"})
+    )
     decoded = bsm.decode(encoder.encode())
     if ordered:
         assert (decoded.faces == mesh.faces).all()
@@ -456,7 +534,9 @@ def test_any_triangles_keep_what_they_carry(seed, vertices, faces, ordered):
 TURNS = {"normal": "10bits", "tangent": "9bits"}
 
 
-def tangential(mesh: bsm.TriangleMesh, change: Callable[[np.ndarray], np.ndarray] | None = None) -> bsm.TriangleMesh:
+def tangential(
+    mesh: bsm.TriangleMesh, change: Callable[[np.ndarray], np.ndarray] | None = None
+) -> bsm.TriangleMesh:
     """A mesh with normals, texture coordinates and tangents, these perhaps changed."""
     dressed_mesh = with_attributes(mesh, creases, charts, tangents)
     *others, last = dressed_mesh.attributes
@@ -477,11 +557,14 @@ def test_tangents_are_turns_about_decoded_normals(options):
     decoded = bsm.decode(stream)
     error = compared(mesh, decoded, encoder)["tangent"]
     assert error < np.radians(0.35)  # half a step of 9 bits, and the error of normals of 10 bits
-    normal, _, tangent = (at_corners(decoded, attribute).astype(float) for attribute in decoded.attributes)
+    normal, _, tangent = (
+        at_corners(decoded, attribute).astype(float) for attribute in decoded.attributes
+    )
     np.testing.assert_allclose(np.linalg.norm(tangent[..., :3], axis=-1), 1.0, atol=1e-6)
     assert {*np.unique(tangent[..., 3])} == {-1.0, 1.0}
     upright = np.abs((tangent[..., :3] * normal).sum(axis=-1))
-    assert np.quantile(upright, 0.5) < 1e-6  # where corners share a tangent, they may have different normals
+    # Where corners share a tangent, they may have different normals.
+    assert np.quantile(upright, 0.5) < 1e-6
     note = next(note for note in encoder.notes if note.startswith("tangent"))
     told = re.fullmatch(r"tangent: per corner, 9 bits, within ([\d.]+) degrees", note)
     assert told and error <= np.radians(float(told[1])) * 1.06

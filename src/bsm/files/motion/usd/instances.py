@@ -30,14 +30,18 @@ class Instancer:
         self._time = np.nan  # of the transforms
         self._transforms: Doubles = np.empty((0, 4, 4))
         stage = prim.GetStage()
-        self._roots = [stage.GetPrimAtPath(path) for path in self._instancer.GetPrototypesRel().GetTargets()]
+        self._roots = [
+            stage.GetPrimAtPath(path) for path in self._instancer.GetPrototypesRel().GetTargets()
+        ]
         self._meshes: list[list[Any]] = []
         self.inner: list[str] = []
         """The paths of instancers in the prototypes."""
         for root in self._roots:
             prims = list(pxr.Usd.PrimRange.AllPrims(root)) if root else []
             self._meshes.append([below for below in prims if below.IsA(pxr.UsdGeom.Mesh)])
-            self.inner += [str(below.GetPath()) for below in prims if below.IsA(pxr.UsdGeom.PointInstancer)]
+            self.inner += [
+                str(below.GetPath()) for below in prims if below.IsA(pxr.UsdGeom.PointInstancer)
+            ]
 
     def count(self, time: Any) -> int:
         return len(self._instancer.GetProtoIndicesAttr().Get(time) or [])
@@ -58,7 +62,9 @@ class Instancer:
         visible = frozenset[tuple[int, int]]().union(*map(self.visible_at, times))
         for number, prototype in sorted(visible):
             if not 0 <= prototype < len(self._roots):
-                raise FormatError(f"{self.prim.GetPath()} names prototype {prototype} of {len(self._roots)}")
+                raise FormatError(
+                    f"{self.prim.GetPath()} names prototype {prototype} of {len(self._roots)}"
+                )
             for mesh in self._meshes[prototype]:
                 yield mesh, Instance(self, number, self._roots[prototype], prototype)
 
@@ -66,7 +72,10 @@ class Instancer:
     def changes(self) -> list[float]:
         """The times at which instances may appear, vanish or become others."""
         times: list[float] = []
-        for attribute in (self._instancer.GetProtoIndicesAttr(), self._instancer.GetInvisibleIdsAttr()):
+        for attribute in (
+            self._instancer.GetProtoIndicesAttr(),
+            self._instancer.GetInvisibleIdsAttr(),
+        ):
             if attribute.GetNumTimeSamples() > 1:
                 times += attribute.GetTimeSamples()
         return times

@@ -13,7 +13,8 @@ SURFACE, TEXTURE, READER = "UsdPreviewSurface", "UsdUVTexture", "UsdPrimvarReade
 TRANSFORM = "UsdTransform2d"
 SIDES = ("wrapS", "wrapT")
 NO_TIME = float("nan")  # as usd-core has it
-_KINDS = {"diffuseColor": "Color3f", "emissiveColor": "Color3f", "normal": "Normal3f"}  # others are Float
+# Others are Float.
+_KINDS = {"diffuseColor": "Color3f", "emissiveColor": "Color3f", "normal": "Normal3f"}
 _MODULES = ("Ar", "Gf", "Sdf", "Tf", "Usd", "UsdGeom", "UsdShade", "UsdSkel", "UsdUtils", "Vt")
 
 
@@ -31,7 +32,9 @@ def _surface_inputs() -> dict[str, SurfaceInput]:
         if name in ("prim", "opacity"):
             continue
         by_texture = {field.endswith("_texture"): field for field in fields}
-        inputs[name] = SurfaceInput(_KINDS.get(name, "Float"), by_texture.get(False), by_texture.get(True))
+        inputs[name] = SurfaceInput(
+            _KINDS.get(name, "Float"), by_texture.get(False), by_texture.get(True)
+        )
     return inputs
 
 

@@ -15,7 +15,16 @@ import numpy as np
 from bsm.bitstream.limits import Limits
 from bsm.files.formats.appearance import WAYS, Appearance, Material, Texture, as_text, in_gltf
 from bsm.files.formats.metadata import Beside, Value, described, fetched
-from bsm.files.motion.usd.library import DEFAULTS, INPUTS, READER, SIDES, SURFACE, TEXTURE, TRANSFORM, SurfaceInput
+from bsm.files.motion.usd.library import (
+    DEFAULTS,
+    INPUTS,
+    READER,
+    SIDES,
+    SURFACE,
+    TEXTURE,
+    TRANSFORM,
+    SurfaceInput,
+)
 from bsm.files.parsing import Ints, as_library_error
 from bsm.files.unread import Said, Taken, rows_of
 

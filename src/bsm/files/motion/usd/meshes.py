@@ -15,7 +15,12 @@ from bsm.files.motion.usd.instances import Instance, authored_primvars
 from bsm.files.parsing import Ints
 
 _SHADES = {"displayColor": "color", "displayOpacity": "displayOpacity"}
-_DOMAINS: dict[str, Domain] = {"vertex": "vertex", "varying": "vertex", "uniform": "face", "faceVarying": "corner"}
+_DOMAINS: dict[str, Domain] = {
+    "vertex": "vertex",
+    "varying": "vertex",
+    "uniform": "face",
+    "faceVarying": "corner",
+}
 
 
 class StageMesh:
@@ -44,7 +49,9 @@ class StageMesh:
         self._instance_primvars: list[Any] = []
         if instance is not None:
             names = {primvar.GetPrimvarName() for primvar in self._primvars}
-            self._instance_primvars = [p for p in instance.instancer.primvars if p.GetPrimvarName() not in names]
+            self._instance_primvars = [
+                p for p in instance.instancer.primvars if p.GetPrimvarName() not in names
+            ]
         self.left_out: list[str] = []
         """The contents that no column has."""
         painted_attrs = self.painted
@@ -57,7 +64,9 @@ class StageMesh:
         counts = np.array(self.counts_attr.Get(self.time) or [], np.int64)
         corners = self.rows["corner"]
         if (counts < 0).any() or counts.sum() != corners:
-            raise FormatError(f"the faces of {self.prim.GetPath()} have {corners} corners, not {counts.sum()}")
+            raise FormatError(
+                f"the faces of {self.prim.GetPath()} have {corners} corners, not {counts.sum()}"
+            )
         return counts
 
     @cached_property
@@ -70,7 +79,12 @@ class StageMesh:
         columns = {column.name: column for column in self._columns()}
         color = columns.get(_SHADES["displayColor"])
         opacity = columns.get(_SHADES["displayOpacity"])
-        if color is None or opacity is None or color.domain != opacity.domain or color.semantic != "color":
+        if (
+            color is None
+            or opacity is None
+            or color.domain != opacity.domain
+            or color.semantic != "color"
+        ):
             return [*columns.values()]
         shades = np.hstack([shares_of(_rows(color)[:, :3]), _rows(opacity)])
         indices = None if color.indices is None else np.arange(len(shades))
@@ -127,7 +141,9 @@ class StageMesh:
         if values.dtype.kind not in "iuf" or values.ndim != 2 or values.shape[1] > MOST_COMPONENTS:
             return None
         rows = np.array(primvar.GetIndices(self.time) or np.arange(len(values)), np.int64)
-        if len(rows) != self.rows[domain] or not 0 <= rows.min(initial=0) <= rows.max(initial=0) < len(values):
+        if len(rows) != self.rows[domain] or not 0 <= rows.min(initial=0) <= rows.max(
+            initial=0
+        ) < len(values):
             return None
         attribute_name, values, semantic = _interpret(name, kind, values)
         if domain == "corner":
@@ -144,11 +160,17 @@ class StageMesh:
         if values.ndim and len(values) == self._instance.instancer.count(self.time):
             values = values[number : number + 1]
         values = values.reshape(1, -1)
-        if not kind.endswith("[]") or values.dtype.kind not in "iuf" or not 1 <= values.size <= MOST_COMPONENTS:
+        if (
+            not kind.endswith("[]")
+            or values.dtype.kind not in "iuf"
+            or not 1 <= values.size <= MOST_COMPONENTS
+        ):
             return None
         domain: Domain = "vertex" if name in _SHADES else "face"
         attribute_name, values, semantic = _interpret(name, kind, values)
-        return Column(attribute_name, np.repeat(values, self.rows[domain], axis=0), domain, semantic)
+        return Column(
+            attribute_name, np.repeat(values, self.rows[domain], axis=0), domain, semantic
+        )
 
 
 def source_paths(pxr: Any, prim: Any) -> tuple[str, ...]:

@@ -46,22 +46,33 @@ class PlacedMesh:
         root = np.array(cache.GetLocalToWorldTransform(self.instance.root), np.float64)
         # The prototype may lie anywhere in the stage: its own place is taken out first. A pseudo-inverse, as a
         # prototype may be scaled to 0.
-        return matrix @ np.linalg.pinv(root) @ self.instance.instancer.matrix(self.instance.number, time, cache)
+        return (
+            matrix
+            @ np.linalg.pinv(root)
+            @ self.instance.instancer.matrix(self.instance.number, time, cache)
+        )
 
     def points(self, time: Any, cache: Any) -> Doubles:
         """Return the points in the world at a time."""
         shape = self.shape
         moment = f"at time {time.GetValue():g}"
         points = np.array(shape.points.Get(time) or (), np.float64).reshape(-1, 3)
-        tables = (("counts", shape.counts_attr, shape.counts), ("corners", shape.corners_attr, shape.corners))
+        tables = (
+            ("counts", shape.counts_attr, shape.counts),
+            ("corners", shape.corners_attr, shape.corners),
+        )
         for name, attribute, first_values in tables:
             if attribute.GetNumTimeSamples() <= 1:
                 continue
             values = np.array(attribute.Get(time), np.int64)
             if not np.array_equal(values, first_values):
-                raise MeshError(f"the faces of {self.name} change {moment} (their {name}); if they may, --runs")
+                raise MeshError(
+                    f"the faces of {self.name} change {moment} (their {name}); if they may, --runs"
+                )
         if len(points) != shape.vertices:
-            raise MeshError(f"{self.name} has {len(points)} points {moment} and {shape.vertices} before")
+            raise MeshError(
+                f"{self.name} has {len(points)} points {moment} and {shape.vertices} before"
+            )
         matrix = self.matrix(time, cache)
         with np.errstate(over="ignore", invalid="ignore"):  # a later check refuses infinite values
             return points @ matrix[:3, :3] + matrix[3, :3]

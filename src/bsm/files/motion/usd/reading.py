@@ -25,7 +25,9 @@ def read_usd(path: str, request: Wanted, limits: Limits = DEFAULT_LIMITS) -> Fra
     first, last = stage.span or (times[0], times[-1])
     duration = (last - first) * rate / codes_per_second  # in frames
     if not np.isfinite([first, last, codes_per_second, duration]).all():
-        raise FormatError(f"the stage runs from {first:g} to {last:g} at {codes_per_second:g} codes per second")
+        raise FormatError(
+            f"the stage runs from {first:g} to {last:g} at {codes_per_second:g} codes per second"
+        )
     # A little more, since 1/24 s is not exact in binary, and rounding would lose the last frame.
     count = int(np.floor(max(last - first, 0.0) * rate / codes_per_second + 1e-6)) + 1
     require_counts(limits, frames=count)
@@ -36,7 +38,9 @@ def read_usd(path: str, request: Wanted, limits: Limits = DEFAULT_LIMITS) -> Fra
     notes = [f"{count} frames at {rate:g} per second"]
     notes += between("time samples", (times_inside - first) * rate / codes_per_second, rate)
     if len(times_inside) < len(times):
-        notes.append(f"{len(times) - len(times_inside)} time samples lie outside {first:g} to {last:g}")
+        notes.append(
+            f"{len(times) - len(times_inside)} time samples lie outside {first:g} to {last:g}"
+        )
     notes += first_frame.notes
     meshes = None
     faces_may_change = request.runs and stage.changes
@@ -58,4 +62,6 @@ def read_usd_mesh(path: str, limits: Limits = DEFAULT_LIMITS) -> MeshFile:
     first_frame = stage.mesh(candidates[0])
     if len(times) < 2:
         return first_frame
-    return replace(first_frame, notes=(*first_frame.notes, "of the motion, the first time was taken"))
+    return replace(
+        first_frame, notes=(*first_frame.notes, "of the motion, the first time was taken")
+    )

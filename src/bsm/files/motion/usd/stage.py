@@ -33,16 +33,23 @@ class Stage:
         self._pxr = pxr = import_usd()
         with as_library_error("usd-core"), silence_usd(pxr):
             try:
-                self._layers = layers_inside(pxr, path)  # kept, so that the stage does not read them again
+                # Kept, so that the stage does not read them again.
+                self._layers = layers_inside(pxr, path)
                 self._stage = pxr.Usd.Stage.Open(path)
                 refuse_clips_outside(pxr, self._stage, path)
-            except pxr.Tf.ErrorException as error:  # which names its own source before the place in the file
+            # Which names its own source before the place in the file.
+            except pxr.Tf.ErrorException as error:
                 message = " ".join(str(error).split())
                 reasons = re.findall(r" : '(.*?)'(?=\s*(?:Error in|$))", message)
-                raise FormatError(f"usd-core cannot read this file: {' '.join(reasons)[:300]}") from error
+                raise FormatError(
+                    f"usd-core cannot read this file: {' '.join(reasons)[:300]}"
+                ) from error
         stage = self._stage
-        if not all(layer.timeCodesPerSecond > 0 for layer in stage.GetUsedLayers()):  # usd-core would not end
-            raise FormatError("timeCodesPerSecond of this stage, or of a layer of it, is not above 0")
+        # Usd-core would not end.
+        if not all(layer.timeCodesPerSecond > 0 for layer in stage.GetUsedLayers()):
+            raise FormatError(
+                "timeCodesPerSecond of this stage, or of a layer of it, is not above 0"
+            )
         if any(prim.IsA(pxr.UsdSkel.Root) for prim in stage.Traverse()):
             # Skeletons move the points, in a layer that is not saved.
             stage.SetEditTarget(stage.GetSessionLayer())
@@ -60,7 +67,9 @@ class Stage:
         with silence_usd(pxr):
             self.parts = list(self._traversal.parts())
         missing_layers = [" ".join(str(error).split()) for error in stage.GetCompositionErrors()]
-        self._notes = [f"left out, a layer or reference: {text[:200]}" for text in missing_layers[:MOST_NAMED]]
+        self._notes = [
+            f"left out, a layer or reference: {text[:200]}" for text in missing_layers[:MOST_NAMED]
+        ]
         self._notes += self._traversal.notes()
         if not self.parts:
             raise FormatError("; ".join(("this stage has no meshes", *self._notes)))
@@ -113,7 +122,9 @@ class Stage:
         cache = self._pxr.UsdGeom.XformCache(code)
         visible_parts = self.parts
         if self._runs and self._traversal.blinking:
-            visible_parts = [part for part in self.parts if self._traversal.is_part_visible(part, time)]
+            visible_parts = [
+                part for part in self.parts if self._traversal.is_part_visible(part, time)
+            ]
             if not visible_parts:
                 raise NoFacesError(f"nothing is visible at time {time:g}")
         face_sets = _FaceSets(several_parts=len(self.parts) > 1)
@@ -121,13 +132,20 @@ class Stage:
         placed_parts = (self._placed_part(part, code, cache, face_sets) for part in visible_parts)
         joined = polygons.joined_parts(placed_parts, sizes, self._limits, self._file_size)
         material_metadata, missing_images, material_losses = self._materials.metadata(self._limits)
-        metadata = {**self._stage_metadata(), **face_sets.metadata, **joined.metadata, **material_metadata}
+        metadata = {
+            **self._stage_metadata(),
+            **face_sets.metadata,
+            **joined.metadata,
+            **material_metadata,
+        }
         metadata |= self._own_metadata()
         losses = [name for part in self.parts for name in part.shape.left_out]
         losses += [*self._materials.unread, *material_losses]
         notes = [*joined.notes, *missing_images, *self._notes, *face_sets.notes()]
         dropped = tuple(dict.fromkeys(losses))
-        return replace(joined, notes=tuple(notes), dropped=dropped, metadata=metadata).checked(self._limits)
+        return replace(joined, notes=tuple(notes), dropped=dropped, metadata=metadata).checked(
+            self._limits
+        )
 
     def _stage_metadata(self) -> dict[str, Value]:
         geom = self._pxr.UsdGeom
@@ -145,7 +163,9 @@ class Stage:
             metadata["prim"] = str(path)
         return metadata
 
-    def _placed_part(self, part: PlacedMesh, code: Any, cache: Any, face_sets: "_FaceSets") -> polygons.Part:
+    def _placed_part(
+        self, part: PlacedMesh, code: Any, cache: Any, face_sets: "_FaceSets"
+    ) -> polygons.Part:
         shape = part.shape
         # A mirror swaps inside and outside, as the left-handed orientation does; both together swap nothing.
         mirrored = np.linalg.det(part.matrix(code, cache)[:3, :3]) < 0.0
@@ -156,11 +176,15 @@ class Stage:
             if column.indices is not None:
                 column = replace(column, indices=column.indices[order])
             columns.append(column)
-        materials, unbound_sets = self._materials.number_faces(part.prim, len(shape.counts), shape.time)
+        materials, unbound_sets = self._materials.number_faces(
+            part.prim, len(shape.counts), shape.time
+        )
         columns += face_sets.columns(unbound_sets, len(materials))
         name = part.name if len(self.parts) > 1 else part.prim.GetName()
         points = part.points(code, cache)
-        placed_part = polygons.Part(points, shape.counts, shape.corners[order], columns, materials, name)
+        placed_part = polygons.Part(
+            points, shape.counts, shape.corners[order], columns, materials, name
+        )
         return placed_part.without(shape.holes) if len(shape.holes) else placed_part
 
 

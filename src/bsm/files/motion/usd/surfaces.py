@@ -9,8 +9,22 @@ import numpy as np
 
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
-from bsm.files.formats.appearance import Appearance, Material, Texture, appearance, held_by, lost, within
-from bsm.files.formats.metadata import face_numbers, images_in, kind_of_image, materials_in, names_in
+from bsm.files.formats.appearance import (
+    Appearance,
+    Material,
+    Texture,
+    appearance,
+    held_by,
+    lost,
+    within,
+)
+from bsm.files.formats.metadata import (
+    face_numbers,
+    images_in,
+    kind_of_image,
+    materials_in,
+    names_in,
+)
 from bsm.files.motion.usd.library import (
     COORDINATES,
     DEFAULTS,
@@ -27,7 +41,9 @@ _MOST_SETS = 1 << 12  # of the faces of parts: each is a prim
 _IMAGE_KINDS = ("png", "jpg", "exr")  # those that USD knows
 
 
-def write_materials(pxr: Any, mesh: Any, frame: TriangleMesh, folder: Path | None) -> tuple[dict[int, Any], set[str]]:
+def write_materials(
+    pxr: Any, mesh: Any, frame: TriangleMesh, folder: Path | None
+) -> tuple[dict[int, Any], set[str]]:
     """Write the materials of a mesh beneath it; return them by their numbers, and the metadata that they express."""
     materials = materials_in(frame.metadata)
     image_files: dict[int, str] = {}
@@ -68,7 +84,9 @@ def _define_material(pxr: Any, mesh: Any, number: int, words: Material) -> Any:
     return pxr.UsdShade.Material.Define(stage, path)
 
 
-def bind_materials(pxr: Any, mesh: Any, frame: TriangleMesh, prims: Mapping[int, Any], time: float = NO_TIME) -> None:
+def bind_materials(
+    pxr: Any, mesh: Any, frame: TriangleMesh, prims: Mapping[int, Any], time: float = NO_TIME
+) -> None:
     """Bind the faces of a frame to their materials, from a time on if there is one."""
     numbers = face_numbers(frame, "material")
     api = pxr.UsdShade.MaterialBindingAPI
@@ -77,11 +95,15 @@ def bind_materials(pxr: Any, mesh: Any, frame: TriangleMesh, prims: Mapping[int,
             api.Apply(mesh.GetPrim()).Bind(prims[0])
         return
     for number, material in prims.items():
-        subset = _write_subset(pxr, mesh, f"faces_{number}", pxr.UsdShade.Tokens.materialBind, numbers, number, time)
+        subset = _write_subset(
+            pxr, mesh, f"faces_{number}", pxr.UsdShade.Tokens.materialBind, numbers, number, time
+        )
         api.Apply(subset.GetPrim()).Bind(material)
 
 
-def write_parts(pxr: Any, mesh: Any, frame: TriangleMesh, time: float = NO_TIME) -> Attribute | None:
+def write_parts(
+    pxr: Any, mesh: Any, frame: TriangleMesh, time: float = NO_TIME
+) -> Attribute | None:
     """Write a set of faces for each part, under its name; return the attribute that numbers the parts."""
     numbers = face_numbers(frame, "part")
     names = names_in(frame.metadata, "part")
@@ -95,7 +117,9 @@ def write_parts(pxr: Any, mesh: Any, frame: TriangleMesh, time: float = NO_TIME)
     return numbers
 
 
-def _write_subset(pxr: Any, mesh: Any, name: str, family: str, numbers: Attribute, number: int, time: float) -> Any:
+def _write_subset(
+    pxr: Any, mesh: Any, name: str, family: str, numbers: Attribute, number: int, time: float
+) -> Any:
     """Write the faces that have a number, from a time on if there is one."""
     geom = pxr.UsdGeom
     geom.Subset.SetFamilyType(mesh, family, geom.Tokens.nonOverlapping)
@@ -110,7 +134,9 @@ def _write_subset(pxr: Any, mesh: Any, name: str, family: str, numbers: Attribut
 class _Surface:
     """A preview surface of a material, as far as USD has inputs for an appearance."""
 
-    def __init__(self, pxr: Any, material: Any, look: Appearance, images: Mapping[int, str]) -> None:
+    def __init__(
+        self, pxr: Any, material: Any, look: Appearance, images: Mapping[int, str]
+    ) -> None:
         self._pxr = pxr
         self._types = pxr.Sdf.ValueTypeNames
         self._material = material
@@ -161,7 +187,9 @@ class _Surface:
         shader.CreateInput("file", types.Asset).Set(image_path)
         if texture.scale != (1.0, 1.0) or texture.offset != (0.0, 0.0) or texture.rotation != 0.0:
             coordinates = self._add_transform(name, texture, coordinates)
-        shader.CreateInput("st", types.Float2).ConnectToSource(coordinates.ConnectableAPI(), "result")
+        shader.CreateInput("st", types.Float2).ConnectToSource(
+            coordinates.ConnectableAPI(), "result"
+        )
         for side, way in zip(SIDES, texture.wrap):
             shader.CreateInput(side, types.Token).Set(way)
         if isinstance(factor, tuple):

@@ -51,10 +51,14 @@ class Traversal:
 
     def _visible_meshes(self) -> Iterator[tuple[Any, Instance | None]]:
         # The usual traversal stops at instances, whose meshes would then be missing.
-        prims = iter(self._pxr.Usd.PrimRange.Stage(self._stage, self._pxr.Usd.TraverseInstanceProxies()))
+        prims = iter(
+            self._pxr.Usd.PrimRange.Stage(self._stage, self._pxr.Usd.TraverseInstanceProxies())
+        )
         for count, prim in enumerate(prims):
             if count == _MOST_PRIMS:
-                raise LimitError(f"the stage and its instances have over {_MOST_PRIMS:,} prims; export a part of it")
+                raise LimitError(
+                    f"the stage and its instances have over {_MOST_PRIMS:,} prims; export a part of it"
+                )
             self._note_variants(prim)
             reason = self._reason_hidden(prim)
             if reason:
@@ -76,7 +80,9 @@ class Traversal:
                 self.blinking.append(path)
                 times += instancer.changes
             else:
-                self._leave_out("instances that appear, vanish or become others later (--runs)", [path])
+                self._leave_out(
+                    "instances that appear, vanish or become others later (--runs)", [path]
+                )
         yield from instancer.instances(times)
 
     def _leave_out(self, reason: str, paths: list[str]) -> None:
@@ -88,7 +94,8 @@ class Traversal:
             unused_variants = {*variant_sets.GetVariantSet(name).GetVariantNames()}
             unused_variants.discard(variant_sets.GetVariantSelection(name))
             self._leave_out(
-                "variants that are not chosen", [f"{name}={variant}" for variant in sorted(unused_variants)]
+                "variants that are not chosen",
+                [f"{name}={variant}" for variant in sorted(unused_variants)],
             )
 
     def _reason_hidden(self, prim: Any) -> str:
@@ -128,4 +135,7 @@ class Traversal:
         if part.instance is None:
             return self.is_visible(part.prim, time)
         instancer, number, _, prototype = part.instance
-        return self.is_visible(instancer.prim, time) and (number, prototype) in instancer.visible_at(time)
+        return self.is_visible(instancer.prim, time) and (
+            number,
+            prototype,
+        ) in instancer.visible_at(time)

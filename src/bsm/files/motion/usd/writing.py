@@ -26,7 +26,9 @@ from bsm.ground.lengths import metres, unit_of
 
 
 @contextmanager
-def write_usd(file: BinaryIO, kind: str, faces: Faces, shared: Shared) -> Iterator[Callable[..., None]]:
+def write_usd(
+    file: BinaryIO, kind: str, faces: Faces, shared: Shared
+) -> Iterator[Callable[..., None]]:
     """Write a stage of one mesh with a time sample for each frame; yields a function that takes one frame."""
     with tempfile.TemporaryDirectory() as name:
         writer = _StageWriter(Path(name), kind, faces, shared)
@@ -49,7 +51,8 @@ class _StageWriter:
         self._shared = shared
         self._mesh: Any = None
         self._materials: dict[int, Any] = {}
-        self._first: TriangleMesh | None = None  # the first mesh, as long as its faces are those of all frames
+        # The first mesh, as long as its faces are those of all frames.
+        self._first: TriangleMesh | None = None
         self._count = 0
         self._last_code = 0.0
         self._timed: set[str] = set()  # attributes that have times
@@ -68,12 +71,16 @@ class _StageWriter:
         for attribute in self._shared.moved():
             if self._first is not None and attribute.name not in self._timed:
                 # A value at a later time alone would hold for all earlier times: its old value gets the time before.
-                first_values = next(old for old in self._first.attributes if old.name == attribute.name)
+                first_values = next(
+                    old for old in self._first.attributes if old.name == attribute.name
+                )
                 self._write_attribute(first_values, self._last_code)
             self._timed.add(attribute.name)
             self._write_attribute(attribute, code)
         if not single_suffices(frame):
-            raise MeshError(f"frame {self._count} needs double precision, which points of USD do not have; write npz")
+            raise MeshError(
+                f"frame {self._count} needs double precision, which points of USD do not have; write npz"
+            )
         extent = np.array([frame.min(axis=0), frame.max(axis=0)], np.float32)
         self._mesh.GetPointsAttr().Set(frame.astype(np.float32), code)
         self._mesh.GetExtentAttr().Set(extent, code)
@@ -97,7 +104,9 @@ class _StageWriter:
         """Write everything of the first mesh but its points."""
         pxr, shared = self._pxr, self._shared
         metadata = without_materials(first.metadata)
-        has_unit = self._set_conventions(str(metadata.get("up", "y")).lower(), metres(unit_of(metadata)))
+        has_unit = self._set_conventions(
+            str(metadata.get("up", "y")).lower(), metres(unit_of(metadata))
+        )
         self._define_mesh(str(metadata.get("name") or "mesh"), str(metadata.get("prim")))
         mesh = self._mesh
         # The default is Catmull-Clark: without this, viewers round off every mesh.
@@ -112,13 +121,18 @@ class _StageWriter:
         self._materials, written = write_materials(pxr, mesh, first, image_folder)
         parts = write_parts(pxr, mesh, first)
         primvars = self._primvars(first, parts)
-        shared.loses(attribute.name for attribute in primvars if not self._write_attribute(attribute))
+        shared.loses(
+            attribute.name for attribute in primvars if not self._write_attribute(attribute)
+        )
         self._stage.GetRootLayer().comment = str(metadata.get("provenance", ""))
         written |= {"up", "name", "prim", "provenance"}
         if has_unit:
             written.add("unit")
         if parts is not None:
-            written |= {"part.names", *(f"part.{number}.name" for number in names_in(metadata, "part"))}
+            written |= {
+                "part.names",
+                *(f"part.{number}.name" for number in names_in(metadata, "part")),
+            }
         unwritten = (name for name in first.metadata if name not in written)
         shared.loses(in_words(unwritten, first.metadata))
 
@@ -162,7 +176,9 @@ class _StageWriter:
     def _primvars(self, frame: TriangleMesh, parts: Attribute | None) -> list[Attribute]:
         """Return the attributes that are not written as sets of faces."""
         materials = face_numbers(frame, "material") if self._materials else None
-        return [a for a in frame.attributes if a is not materials and a is not parts and a.name != EMPTY]
+        return [
+            a for a in frame.attributes if a is not materials and a is not parts and a.name != EMPTY
+        ]
 
     def _write_attribute(self, attribute: Attribute, time: float = NO_TIME) -> bool:
         """Write an attribute as a primvar, or its values at a time; return whether that is possible."""
@@ -192,19 +208,29 @@ class _StageWriter:
                 return False
             api = self._pxr.UsdGeom.PrimvarsAPI(self._mesh)
             if (linear[:, 3] < 1).any() or api.HasPrimvar("displayOpacity"):
-                opacity = replace(color, name="displayOpacity", values=linear[:, 3:], semantic="generic")
+                opacity = replace(
+                    color, name="displayOpacity", values=linear[:, 3:], semantic="generic"
+                )
                 self._write_attribute(opacity, time)
         name = "displayColor" if is_display_color else self._identifier(color.name)
-        self._set_primvar(color, name, self._pxr.Sdf.ValueTypeNames.Color3fArray, linear[:, :3], time)
+        self._set_primvar(
+            color, name, self._pxr.Sdf.ValueTypeNames.Color3fArray, linear[:, :3], time
+        )
         return True
 
     def _identifier(self, name: str) -> str:
         return str(self._pxr.Tf.MakeValidIdentifier(name))
 
-    def _set_primvar(self, attribute: Attribute, name: str, kind: Any, values: Any, time: float) -> None:
+    def _set_primvar(
+        self, attribute: Attribute, name: str, kind: Any, values: Any, time: float
+    ) -> None:
         pxr = self._pxr
         tokens = pxr.UsdGeom.Tokens
-        interpolations = {"vertex": tokens.vertex, "face": tokens.uniform, "corner": tokens.faceVarying}
+        interpolations = {
+            "vertex": tokens.vertex,
+            "face": tokens.uniform,
+            "corner": tokens.faceVarying,
+        }
         api = pxr.UsdGeom.PrimvarsAPI(self._mesh)
         primvar = api.CreatePrimvar(name, kind, interpolations[attribute.domain])
         primvar.Set(values[:, 0] if values.shape[1] == 1 else values, time)
