@@ -8,6 +8,8 @@ INLINE double above_zero(double x) { return x > 0.0 ? x : 0.0; }
 INLINE double mesh_work(double n, double m, double bytes) {
     return 140 * n + 85 * m + 700 * above_zero(m / 2 - n) + 400 * bytes;
 }
+/* What faces on edges add to it (C 13). */
+INLINE double edges_work(double m) { return 150 * m; }
 INLINE double mesh_memory(double n, double m) { return 200 * n + 60 * m; }
 INLINE double order_work(double n, double m, double bytes) { return 500 * n + 750 * m + 100 * bytes; }
 INLINE double order_memory(double n, double m) { return 32 * n + 60 * m; }

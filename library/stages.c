@@ -31,7 +31,8 @@ static bool accept_connectivity(bsmdec *decoder, Span data) {
     context->spent.vertices += header->vertices;
     mesh->has_faces = true;
     mesh->numbering = (Numbering){.size = header->vertices, .faces = const_ints2(mesh->faces)};
-    return reserve(context, mesh_memory(n, m), bytes) && charge(context, mesh_work(n, m, bytes), bytes);
+    double work = mesh_work(n, m, bytes) + (has_edges(header) ? edges_work(m) : 0);
+    return reserve(context, mesh_memory(n, m), bytes) && charge(context, work, bytes);
 }
 
 static bool accept_partition(bsmdec *decoder, Span data) {

@@ -157,9 +157,10 @@ static bool close_surface(Context *context, ConstInts2 faces, int64_t vertices, 
     return true;
 }
 
-static bool write_connectivity(Context *context, Source given, int64_t vertices, Arena *arena, Arena *scratch,
-    int32_t *order, int32_t *face_order, int32_t *faces) {
+static bool write_connectivity(Context *context, Source given, int64_t vertices, int repeats, Arena *arena,
+    Arena *scratch, int32_t *order, int32_t *face_order, int32_t *faces) {
     int64_t m = given.faces_count, proper = 0, next = 0;
+    Header header = {.vertices = vertices, .faces = m, .repeats = repeats};
     Surface surface = {.order = {order, vertices}};
     Ints2 own, coded;
     Ints places;
@@ -177,18 +178,22 @@ static bool write_connectivity(Context *context, Source given, int64_t vertices,
     }
     if (!close_surface(context, (ConstInts2){own.data, proper, 3}, given.rows, arena, &surface)) return false;
     int64_t fans = surface.guide.real, corners = 3 * (m - proper);
-    if (!take_ints(arena, fans + corners, &surface.used)) return false;
+    if (!take_ints(arena, fans + corners, &surface.used) || !take_ints(arena, m - proper, &surface.on_edge)
+        || !take_ints(arena, m - proper, &surface.places))
+        return false;
+    for (int64_t i = 0; i < m - proper; i++) surface.places.data[i] = (int32_t)i;
     memcpy(surface.used.data + fans, own.data + 3 * proper, (size_t)corners * sizeof *own.data);
     for (int64_t i = 0; i < fans && given.values != NULL; i++) surface.vertex[i] = given.values[surface.vertex[i]];
     int64_t regular = number_by_appearance((ConstInts){surface.vertex, fans}, surface.order, surface.number);
+    for (int64_t i = fans; i < fans + corners && given.values != NULL; i++)
+        surface.used.data[i] = given.values[surface.used.data[i]];
     surface.repeated = m - proper;
     surface.lonely = vertices - regular;
     surface.surplus = fans - regular;
-    if (!code_connectivity(context, (Span){0}, &(Header){.vertices = vertices, .faces = m}, &surface, arena, scratch,
-            &coded))
-        return false;
+    if (!code_connectivity(context, (Span){0}, &header, &surface, arena, scratch, &coded)) return false;
     memcpy(faces, coded.data, (size_t)(3 * m) * sizeof *faces);
-    for (int64_t i = 0; i < m; i++) face_order[i] = places.data[i < proper ? surface.guide.faces[i] : i];
+    for (int64_t i = 0; i < proper; i++) face_order[i] = places.data[surface.guide.faces[i]];
+    for (int64_t i = proper; i < m; i++) face_order[i] = places.data[proper + surface.places.data[i - proper]];
     return true;
 }
 
@@ -208,14 +213,43 @@ static void find_starts(Source given, const int32_t *order, const int32_t *face_
     }
 }
 
-bool write_faces(PayloadWriter *writer, Source given, int64_t vertices, Payload *writing, int32_t *order,
-    int32_t *face_order, int32_t *faces, uint8_t *starts) {
+static bool write_faces_as(PayloadWriter *writer, Source given, int64_t vertices, int repeats, Payload *writing,
+    int32_t *order, int32_t *face_order, int32_t *faces) {
     Arena arena = arena_of(&writer->context);
+    writing->size = writing->count = 0;
     writer->context.writing = writing;
-    bool done = write_connectivity(&writer->context, given, vertices, &arena, &writer->scratch, order, face_order,
-        faces);
+    bool done = write_connectivity(&writer->context, given, vertices, repeats, &arena, &writer->scratch, order,
+        face_order, faces);
     writer->context.writing = NULL;
     release_all(&arena);
+    return done;
+}
+
+/* How many faces repeat a corner. */
+static int64_t count_repeated(Source given) {
+    int64_t repeated = 0;
+    for (int64_t f = 0; f < given.faces_count; f++) {
+        const int32_t *face = given.faces + 3 * f;
+        repeated += face[0] == face[1] || face[1] == face[2] || face[2] == face[0];
+    }
+    return repeated;
+}
+
+bool write_faces(PayloadWriter *writer, Source given, int64_t vertices, int *repeats, Payload *writing,
+    int32_t *order, int32_t *face_order, int32_t *faces, uint8_t *starts) {
+    bool is_free = *repeats == WHERE_SMALLER, done = true;
+    int64_t repeated = is_free ? count_repeated(given) : 0, as_corners = 0;
+    int64_t bits = 64 - __builtin_clzll((uint64_t)vertices), least_gain = LEAST_GAIN + repeated * TURN_BITS / 8;
+    if (is_free) *repeats = 3 * repeated * bits / 8 > least_gain ? ON_EDGES : AS_CORNERS;
+    if (is_free && *repeats == ON_EDGES) {
+        done = write_faces_as(writer, given, vertices, AS_CORNERS, writing, order, face_order, faces);
+        as_corners = writing->size;
+    }
+    done = done && write_faces_as(writer, given, vertices, *repeats, writing, order, face_order, faces);
+    if (done && as_corners > 0 && writing->size + least_gain > as_corners) {
+        *repeats = AS_CORNERS;
+        done = write_faces_as(writer, given, vertices, AS_CORNERS, writing, order, face_order, faces);
+    }
     if (done) find_starts(given, order, face_order, faces, starts);
     return done;
 }

@@ -19,11 +19,16 @@ void close_writer(PayloadWriter *writer);
 MUST_CHECK bool begin_payloads(Context *context, int64_t capacity, Payload *writing);
 void end_payloads(Context *context, Payload *writing);
 
+/* How faces that repeat a corner are coded, as in the header (specification, C 8, C 13). A brief stream, whose header
+ * cannot declare edges, takes less than LEAST_GAIN bytes less than others. Each face on an edge may take TURN_BITS more
+ * in ORDER, because it begins with another corner. */
+enum { AS_CORNERS, ON_EDGES, WHERE_SMALLER, LEAST_GAIN = 64, TURN_BITS = 2 };
+
 /* Write CONNECTIVITY of faces whose numbers are below `rows`, and say in which order vertices and faces are coded, and
  * which faces a decoder makes, and which corner of its own each of them begins with. `values` has the vertex of each
- * number; NULL: the number itself. */
-bool write_faces(PayloadWriter *writer, Source given, int64_t vertices, Payload *writing, int32_t *order,
-    int32_t *face_order, int32_t *faces, uint8_t *starts);
+ * number; NULL: the number itself. `repeats` becomes what the header declares. */
+bool write_faces(PayloadWriter *writer, Source given, int64_t vertices, int *repeats, Payload *writing,
+    int32_t *order, int32_t *face_order, int32_t *faces, uint8_t *starts);
 
 /* A field whose chunks are written, or read, one after the other. It must not be moved. */
 typedef struct {

@@ -208,6 +208,7 @@ FIELDS = {
     "onorm": (21, int, 1, 64, 0),
     "base": (27, int, 1, COUNT, [], 0, 4),
     "swift": (28, int, 1, 2, 0),
+    "repeats": (29, int, 1, 1, 0),
 }
 EXTENSIONS = {16: "extension light", 17: "extension sequence", 18: "extension sequence"}
 EXTENSIONS[22] = "extension congruence"
@@ -264,9 +265,10 @@ def parse_header(payload):
     for key, _ in entries:  # F 4.2, F 4.8
         if key not in names:
             raise UnsupportedError(EXTENSIONS.get(key, f"key {key}"))
-    swift = dict(entries).get(28)
-    if type(swift) is int and 2 < swift <= 255:  # F 4.5: a method
-        raise UnsupportedError(f"swift {swift}")
+    for name in ("swift", "repeats"):
+        method, most = dict(entries).get(FIELDS[name][0]), FIELDS[name][3]
+        if type(method) is int and most < method <= 255:  # F 4.5
+            raise UnsupportedError(f"{name} {method}")
     for key, value in entries:
         _, kind, low, high, default, *lengths = FIELDS[names[key]]
         items = value if lengths and type(value) is list else [value]
@@ -300,7 +302,9 @@ def agreeing(h, stored):
             "turn",
             "swift",
         }
-        require(stored <= beside and len(h["grid"]) == 3, "a grid, and something else")
+        require(
+            stored <= beside | {"repeats"} and len(h["grid"]) == 3, "a grid, and something else"
+        )
         require(
             len(h["lattice"]) in (0, 2) and len(h["corner"]) in (0, 3),
             "a lattice or a corner of another length",
@@ -983,9 +987,8 @@ def decode_packets(packets, fault):
     if CONNECTIVITY not in packets:
         raise fault
     header, vertices = packets[HEADER][0], packets[HEADER][0]["vertices"]
-    faces = decode_connectivity(
-        packets[CONNECTIVITY][0], vertices, header["faces"], LIMITS["vertices"]
-    )
+    counts = vertices, header["faces"], LIMITS["vertices"], header["repeats"]
+    faces = decode_connectivity(packets[CONNECTIVITY][0], *counts)
     if header["grid"]:
         reader = GridReader(faces, vertices, header["grid"])
         for _, count, payload in packets[GRID]:

@@ -3,6 +3,7 @@
 Slow, plain, easy to compare: the rules stand beside what follows them.
 """
 
+import collections
 import hashlib
 import heapq
 import math
@@ -151,8 +152,8 @@ def read_unsigned(decoder, model, contexts, unary, node):  # C 3.1
 LOOP, VALENCE, DUMMY, NUMBERED, BACKWARD, SKIPPED, COUNTS = 0, 28, 56, 84, 85, 112, 140  # C 4.1
 
 
-def decode_connectivity(payload, vertices, faces, most=1 << 24):
-    """C 4: `faces` triangles of `vertices` vertices; `most` is the limit for vertices."""
+def decode_connectivity(payload, vertices, faces, most=1 << 24, repeats=0):
+    """C 4: `faces` triangles of `vertices` vertices; `most` is the limit for vertices, `repeats` as in the header."""
     decoder, rare = RangeDecoder(payload), Model(inputs=1)
     # C 4.2.
     degenerate, lonely, surplus, dummies = (
@@ -177,6 +178,9 @@ def decode_connectivity(payload, vertices, faces, most=1 << 24):
         if max(vertex_of) + 1 != regular:  # C 7.5
             decoder.fail("the fans do not make as many vertices as the counts say")
         result = [[vertex_of[fan] for fan in face] for face in result]
+    if repeats:
+        on_edges = read_on_edges(decoder, rare, result, degenerate)
+        result, degenerate = result + on_edges, degenerate - len(on_edges)
     result += read_degenerate(decoder, degenerate, regular, vertices)
     decoder.finish()
     return result
@@ -438,6 +442,37 @@ def read_seams(decoder, faces, fans):  # C 7: the vertex of each fan
             vertex[fan] = len(latest)
             latest.append(fan)
     return vertex
+
+
+def read_on_edges(decoder, rare, faces, most):  # C 13: faces that repeat a corner, on edges
+    count = read_unsigned(decoder, rare, (0,), 2, COUNTS)
+    if count > most:
+        decoder.fail("more faces are on edges than repeat a corner")
+    edges = {
+        (min(pair), max(pair))
+        for a, b, c in faces
+        for pair in ((a, b), (b, c), (c, a))
+        if pair[0] != pair[1]
+    }
+    corners, met, twice = (collections.Counter() for _ in range(3))
+    corners.update(v for face in faces for v in face)
+    model, found, history = Model(inputs=3), [], 0
+    for a, b in sorted(edges):
+        if len(found) == count or decoder.overran():
+            break
+        known = 64 * min(met[a], 3) + 16 * min(met[b], 3) + 4 * min(twice[a], 3) + min(twice[b], 3)
+        contexts = known, history, 16 * min(corners[a], 15) + min(corners[b], 15)
+        k = 0
+        while len(found) < count and model.bit(decoder, contexts, min(k, 3)):
+            middle = b if model.bit(decoder, contexts, 4) else a
+            found.append([a, middle, b])
+            met.update((a, b))
+            twice[middle] += 1
+            k += 1
+        history = (2 * history + (k > 0)) % 256
+    if len(found) < count:
+        decoder.fail("fewer faces are on edges than the payload says")
+    return found
 
 
 def read_degenerate(decoder, count, known, vertices):  # C 8: `count` faces that repeat a corner

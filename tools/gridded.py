@@ -7,7 +7,12 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from bsm.bitstream.connectivity.faces import EncodedConnectivity, encode_connectivity
+from bsm.bitstream.connectivity.faces import (
+    AS_CORNERS,
+    ON_EDGES,
+    EncodedConnectivity,
+    encode_connectivity,
+)
 from bsm.bitstream.container.header import MOST_GRID
 from bsm.bitstream.container.wire import FrameType, write_varint
 from bsm.codec.geometry.mesh import TriangleMesh
@@ -30,7 +35,7 @@ def gridded(
     """Frames of a mesh on a grid, with `transforms`, shape (k, 8), of congruent parts."""
     fields = {"grid": values.max(axis=0).tolist()} | fields
     fields |= {} if transforms is None else {"congruence": 35 + len(transforms) + 17 * whole}
-    announced = {"vertices": len(values), "faces": len(coded.faces)}
+    announced = {"vertices": len(values), "faces": len(coded.faces), "repeats": coded.repeats}
     return [
         header_frame(**announced | fields),
         (FrameType.CONNECTIVITY, coded.payload),
@@ -83,7 +88,7 @@ def random_grid(random: Random, mesh: TriangleMesh) -> bytes:
     """A stream with the faces of a mesh, and its positions or any others on any grid."""
     used, corners = np.unique(mesh.faces, return_inverse=True)
     faces, size = corners.reshape(-1, 3).astype(np.int32), len(used)
-    coded = encode_connectivity(faces, size)
+    coded = encode_connectivity(faces, size, random.choice([AS_CORNERS, ON_EDGES]))
     largest = [random.choice(LARGEST) for _ in range(3)]
     values = _values(random, mesh.positions[used][coded.vertex_order], largest)
     counts, left = [], size

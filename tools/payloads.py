@@ -8,6 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm._core import Decoder
+from bsm.bitstream.connectivity.faces import AS_CORNERS
 from bsm.bitstream.container.packets import Connectivity, Grid, Header, Packet, SectionWriter
 from bsm.bitstream.errors import CorruptError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
@@ -63,11 +64,15 @@ def still_levels(matrices: int) -> bytes:
 
 
 def decode_connectivity(
-    payload: bytes, vertices: int, faces: int, limits: Limits = DEFAULT_LIMITS
+    payload: bytes,
+    vertices: int,
+    faces: int,
+    limits: Limits = DEFAULT_LIMITS,
+    repeats: int = AS_CORNERS,
 ) -> Ints:
-    """Return the faces, shape (m, 3), that the decoder makes of a connectivity payload."""
+    """Return the faces, shape (m, 3), that the decoder makes of a connectivity payload; `repeats` as in the header."""
     decoder, writer = Decoder(limits, 1), SectionWriter()
-    header = Header(vertices=vertices, faces=faces, grid=(1, 1, 1))
+    header = Header(vertices=vertices, faces=faces, grid=(1, 1, 1), repeats=repeats)
     # What follows tells the decoder that no order comes, which would change the faces.
     packets: list[Packet] = [header, Connectivity(payload), Grid(0, vertices, b"")]
     stream = b"".join([writer.start(), *map(writer.write, packets)])

@@ -191,7 +191,7 @@ def _minor(frame: tuple[int, bytes]) -> int:
         return 0
 
 
-_LATER = {"onorm": 1, "congruence": 1, "turn": 1, "base": 2, "swift": 3}
+_LATER = {"onorm": 1, "congruence": 1, "turn": 1, "base": 2, "swift": 3, "repeats": 3}
 LATER = {HEADER_FIELDS[name].key: minor for name, minor in _LATER.items()}
 """The minor versions of fields that 1.0 does not have."""
 PARTS = {"paper": tuple(PAPER), "sequence": ("frames", "gop_frames")}

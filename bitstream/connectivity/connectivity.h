@@ -237,6 +237,25 @@ ConquestEnd conquer(Conquest *walk);
 INLINE int32_t next_halfedge(int32_t h) { return h % 3 != 2 ? h + 1 : h - 2; }
 INLINE int32_t previous_halfedge(int32_t h) { return h % 3 != 0 ? h - 1 : h + 2; }
 
+INLINE int32_t low_end(const int32_t *origin, int32_t h) {
+    return (int32_t)least(origin[h], origin[next_halfedge(h)]);
+}
+
+INLINE int32_t high_end(const int32_t *origin, int32_t h) {
+    return (int32_t)largest(origin[h], origin[next_halfedge(h)]);
+}
+
+/* Where the half-edges of the edge end that begins at `begin` of their order, and its ends. */
+INLINE int64_t end_of_edge(ConstInts origin, ConstInts order, int64_t begin, int32_t *low, int32_t *high) {
+    int64_t end = begin + 1;
+    *low = low_end(origin.data, order.data[begin]);
+    *high = high_end(origin.data, order.data[begin]);
+    while (end < order.size && low_end(origin.data, order.data[end]) == *low
+        && high_end(origin.data, order.data[end]) == *high)
+        end++;
+    return end;
+}
+
 void match_halfedges(ConstInts origin, Longs starts, Ints by_high, Ints order, Ints twin);
 void join_sheets(ConstInts origin, ConstInts order, Ints twin);
 int64_t find_fans(ConstInts origin, ConstInts twin, Ints corner, Ints vertex);
@@ -260,6 +279,34 @@ typedef struct {
 extern INSIDE const BankPlan FAN_BANK;
 int64_t code_fans(RangeCoder *coder, const Bank *bank, ConstInts known, Seams seams);
 int64_t code_degenerate(RangeCoder *coder, Ints corners, int64_t count);
+
+/* Faces that repeat a corner, on the edges of the others (C 13). See repeats.c. */
+
+/* Known to a writer only: its faces by their corners, the first of them at the first half-edge of an edge, the next one
+ * on the same edge (-1: there is none), and room for all, those on edges first, in the order of coding. */
+typedef struct {
+    ConstInts corners;
+    Ints first, next, order;
+} FacesOnEdges;
+enum { NOT_ON_EDGES = -2 };
+
+/* Half-edges by their lower and then their higher end, and of each vertex: how many corners of the other faces are
+ * there, how many faces with a repeated corner were met there, and how many of these repeat it. */
+typedef struct {
+    ConstInts origin, order;
+    Ints valence, met, repeated;
+    FacesOnEdges given;
+} Edges;
+
+INLINE bool repeats_corner(const int32_t *face, int32_t v) {
+    return (face[0] == v) + (face[1] == v) + (face[2] == v) > 1;
+}
+
+extern INSIDE const BankPlan REPEAT_BANK;
+int64_t code_repeats(RangeCoder *coder, const Bank *bank, const Edges *edges, Ints corners);
+#ifdef BSMDEC_WRITES
+int64_t list_on_edges(const Edges *edges, ConstLongs ends, int64_t vertices);
+#endif
 
 /* Numbering by first appearance. */
 int64_t number_by_appearance(ConstInts sequence, Ints order, Ints number);

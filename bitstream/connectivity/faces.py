@@ -18,9 +18,16 @@ class EncodedConnectivity:
     face_order: Ints
     faces: Ints
     first_corners: npt.NDArray[np.uint8]  # the corner of its given face that is the first of each
+    repeats: int  # as in the header
 
 
-def encode_connectivity(faces: npt.ArrayLike, vertex_count: int) -> EncodedConnectivity:
+AS_CORNERS, ON_EDGES, WHERE_SMALLER = range(3)
+"""How faces that repeat a corner are coded, as in the header (C 8, C 13), or whichever way takes fewer bytes."""
+
+
+def encode_connectivity(
+    faces: npt.ArrayLike, vertex_count: int, repeats: int = AS_CORNERS
+) -> EncodedConnectivity:
     given = np.asarray(faces)
     if given.ndim != 2 or given.shape[1] != 3 or len(given) == 0 or given.dtype.kind not in "iu":
         raise MeshError(
@@ -39,4 +46,4 @@ def encode_connectivity(faces: npt.ArrayLike, vertex_count: int) -> EncodedConne
         )
     mesh = GivenMesh(np.ascontiguousarray(given, np.int32), np.arange(vertex_count, dtype=np.int32))
     mesh.join(True, True)
-    return EncodedConnectivity(*mesh.code())
+    return EncodedConnectivity(*mesh.code(repeats=repeats))

@@ -4,14 +4,6 @@
  */
 #include "bitstream/connectivity/connectivity.h"
 
-INLINE int32_t low_end(const int32_t *origin, int32_t h) {
-    return (int32_t)least(origin[h], origin[next_halfedge(h)]);
-}
-
-INLINE int32_t high_end(const int32_t *origin, int32_t h) {
-    return (int32_t)largest(origin[h], origin[next_halfedge(h)]);
-}
-
 /* Turn counts, each in the entry after its own, into the places where their items begin. */
 static void sum_up(Longs starts) {
     for (int64_t v = 0; v + 1 < starts.size; v++) starts.data[v + 1] += starts.data[v];
@@ -35,12 +27,8 @@ void match_halfedges(ConstInts origin, Longs starts, Ints by_high, Ints order, I
     }
 
     for (int64_t begin = 0, end; begin < size; begin = end) {
-        int32_t first = order.data[begin];
-        int32_t low = low_end(origin.data, first), high = high_end(origin.data, first);
-        for (end = begin + 1; end < size; end++) {
-            int32_t h = order.data[end];
-            if (low_end(origin.data, h) != low || high_end(origin.data, h) != high) break;
-        }
+        int32_t first = order.data[begin], low, high;
+        end = end_of_edge(origin, (ConstInts){order.data, size}, begin, &low, &high);
         for (int64_t i = begin; i < end; i++) twin.data[order.data[i]] = -1;
         if (end == begin + 2) {
             int32_t second = order.data[begin + 1];
@@ -57,11 +45,11 @@ void match_halfedges(ConstInts origin, Longs starts, Ints by_high, Ints order, I
  * the same ones in any order of faces. */
 void join_sheets(ConstInts origin, ConstInts order, Ints twin) {
     for (int64_t begin = 0, end; begin < order.size; begin = end) {
-        int32_t low = low_end(origin.data, order.data[begin]), high = high_end(origin.data, order.data[begin]);
+        int32_t low, high;
         int32_t apex = origin.data[previous_halfedge(order.data[begin])], other = apex, apexes = 1;
-        for (end = begin; end < order.size && low_end(origin.data, order.data[end]) == low
-             && high_end(origin.data, order.data[end]) == high; end++) {
-            int32_t third = origin.data[previous_halfedge(order.data[end])];
+        end = end_of_edge(origin, order, begin, &low, &high);
+        for (int64_t i = begin; i < end; i++) {
+            int32_t third = origin.data[previous_halfedge(order.data[i])];
             if (third == apex || third == other) continue;
             other = third;
             apexes++;

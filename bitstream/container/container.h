@@ -66,7 +66,7 @@ Value take_single(Cursor *cursor, uint8_t tag);
 /* The entries of a payload, whose bytes they point to. */
 bool parse_map(Context *context, Span payload, Map *map);
 
-enum { MOST_KEY = 29, MOST_LIST = 8 };
+enum { MOST_KEY = 30, MOST_LIST = 8 };
 /* By key: numbers, how many; and the text of the one field that may have one. */
 typedef struct {
     double number[MOST_KEY][MOST_LIST];
@@ -109,6 +109,7 @@ typedef struct {
     bool counted;                     /* there is a corner */
     int light, onorm;                 /* solutions before each Onorm in doubles, or 0 */
     int swift;      /* how values of attributes are coded: 0, 1 plain, 2 mixed (A 9) */
+    int repeats;    /* 1: faces that repeat a corner are counted on edges (C 13) */
     int congruence; /* 35 more than the transforms of congruent parts, and 17 more with whole vertices; 0: without */
     int64_t frames, gop_frames, run, mesh_of; /* `again`: the run whose mesh this one has, or -1 */
     Paper paper;
@@ -130,6 +131,9 @@ INLINE int64_t levels_size(const Header *header) { return header->base.cells + h
 
 /* How positions on a grid are coded. */
 INLINE int method_of(const Header *header) { return BSMDEC_LIGHT ? LIGHT : header->light; }
+
+/* Whether faces that repeat a corner are on edges, which small builds of light grids do not know. */
+INLINE bool has_edges(const Header *header) { return BSMDEC_LIGHT == 0 && header->repeats > 0; }
 
 /* Whether values of a grid are also foretold from congruent parts. */
 INLINE bool is_congruent(const Header *header) { return BSMDEC_LIGHT != 1 && header->congruence > 0; }

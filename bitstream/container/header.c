@@ -4,7 +4,7 @@
 enum {
     VERTICES = 1, FACES, BLOCKS, BLOCK_SIZE, COEFFICIENTS, KEY_INTERVAL, STEP, CENTER, SCALE, SMOOTHING, REFINEMENT,
     ATTRIBUTES, GRID, LATTICE, CORNER, LIGHT_KEY, SEQUENCE, RUN, PAPER, ONORM = 21,
-    CONGRUENCE, BRIEF, TURN, BRIEF_TURNED, BRIEF_METADATA, BASE, SWIFT,
+    CONGRUENCE, BRIEF, TURN, BRIEF_TURNED, BRIEF_METADATA, BASE, SWIFT, REPEATS,
 };
 
 static const Field FIELDS[] = {
@@ -32,13 +32,14 @@ static const Field FIELDS[] = {
     {.key = TURN, .type = FLOATS_FIELD, .low = -1, .high = 1, .least = 3, .most = 3},
     {.key = BASE, .type = INTS_FIELD, .low = 1, .high = INT32_MAX, .most = 4},
     {.key = SWIFT, .type = METHOD_FIELD, .high = 2},
+    {.key = REPEATS, .type = METHOD_FIELD, .high = 1},
 };
 INSIDE const Fields HEADER_FIELDS = {FIELDS, sizeof FIELDS / sizeof *FIELDS};
 
 #define BIT(key) (1u << (key))
 static const uint32_t OF_GRIDS_ALONE = BIT(LATTICE) | BIT(CORNER) | BIT(LIGHT_KEY) | BIT(CONGRUENCE) | BIT(TURN);
 static const uint32_t OF_A_GRID = BIT(VERTICES) | BIT(FACES) | BIT(CENTER) | BIT(SCALE) | BIT(ATTRIBUTES) | BIT(GRID)
-    | BIT(SWIFT) | OF_GRIDS_ALONE;
+    | BIT(SWIFT) | BIT(REPEATS) | OF_GRIDS_ALONE;
 static const uint32_t OF_A_RUN = BIT(VERTICES) | BIT(FACES) | BIT(SEQUENCE) | BIT(RUN);
 enum { MOST_HEADER = 1 << 16, MOST_REACH = 8, MOST_ROUNDS = 64, MOST_HALVINGS = 40 };
 
@@ -60,6 +61,7 @@ static void set_header(const Record *record, Header *header) {
         .refined = count[REFINEMENT] > 0, .on_grid = count[GRID] > 0, .is_sequence = count[SEQUENCE] > 0,
         .refinement = {number[REFINEMENT][0], number[REFINEMENT][1]},
         .onorm = (int)number[ONORM][0], .light = (int)number[LIGHT_KEY][0], .swift = (int)number[SWIFT][0],
+        .repeats = (int)number[REPEATS][0],
         .congruence = (int)number[CONGRUENCE][0],
         .counted = count[CORNER] > 0,
         .base = {(int64_t)number[BASE][0], (int)number[BASE][1], (int)number[BASE][2], (int)number[BASE][3]},
@@ -88,12 +90,13 @@ Record header_record(const Header *h) {
         .number = {[VERTICES] = {(double)h->vertices}, [FACES] = {(double)h->faces}, [SCALE] = {h->scale},
             [CENTER] = {center[0], center[1], center[2]}, [ATTRIBUTES] = {(double)h->attributes},
             [GRID] = {grid[0], grid[1], grid[2]}, [LIGHT_KEY] = {h->light}, [SWIFT] = {h->swift},
+            [REPEATS] = {h->repeats},
             [BLOCKS] = {(double)h->blocks},
             [BLOCK_SIZE] = {(double)h->block_size}, [COEFFICIENTS] = {(double)h->coefficients}, [STEP] = {h->step},
             [SEQUENCE] = {(double)h->frames, (double)h->gop_frames}},
         .count = {[VERTICES] = 1, [FACES] = 1, [SCALE] = 1, [CENTER] = 3, [ATTRIBUTES] = 1,
-            [GRID] = h->is_sequence ? 0 : 3, [LIGHT_KEY] = 1, [SWIFT] = 1, [BLOCKS] = 1, [BLOCK_SIZE] = 1,
-            [COEFFICIENTS] = 1,
+            [GRID] = h->is_sequence ? 0 : 3, [LIGHT_KEY] = 1, [SWIFT] = 1, [REPEATS] = 1, [BLOCKS] = 1,
+            [BLOCK_SIZE] = 1, [COEFFICIENTS] = 1,
             [STEP] = h->is_sequence, [SEQUENCE] = h->is_sequence ? 2 : 0}};
 }
 #endif

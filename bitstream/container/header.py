@@ -138,6 +138,8 @@ class Header:
     blocks are on the mesh itself."""
     swift: int = _HEADER[28]
     """1: values of attributes are quick to decode, and some more bytes; 2: less quick, and fewer bytes."""
+    repeats: int = _HEADER[29]
+    """1: faces that repeat a corner are counted on the edges of others; 0: they are coded by their corners."""
 
     @property
     def transforms(self) -> int:

@@ -5,7 +5,7 @@
 
 enum {
     MAJOR = 1,            /* version of the format */
-    MINOR_OF_SWIFT = 3,   /* the first that has swift attributes */
+    MINOR_OF_SWIFT = 3,   /* the first that has swift attributes, and faces that repeat a corner on edges */
     SHORT_PAYLOAD = 128,  /* a payload of fewer bytes has a short checksum */
     MOST_NAME = 255,      /* bytes */
     MOST_GIVEN = 1 << 24, /* vertices, so that every number of one can be coded */

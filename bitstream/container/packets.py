@@ -178,8 +178,8 @@ def write_brief(header: Header, body: Sequence[Packet]) -> bytes | None:
     # A brief stream exists for small meshes on grids. All others have packets that one frame cannot hold, and stay as
     # they are.
     match [packet for packet in body if not isinstance(packet, Metadata)]:
-        case [Connectivity(faces), Grid(0, header.vertices, values)] if len(floats) == 16 + 4 * len(
-            turn
+        case [Connectivity(faces), Grid(0, header.vertices, values)] if (
+            len(floats) == 16 + 4 * len(turn) and not header.repeats
         ):
             # Only these fields: a brief header has no keys, so everything else must be at its default.
             whole = (header.vertices, header.faces, *header.grid, header.congruence, len(faces))

@@ -39,6 +39,7 @@ typedef struct {
     int32_t *vertex;       /* of each fan */
     Ints used;             /* room for the vertices of fans, then those of faces that repeat a corner */
     Ints order, number;    /* of each vertex: room for those in the order of coding, and the place of each there */
+    Ints places, on_edge;  /* the faces that repeat a corner in the order of coding, and room for the same on an edge */
 } Surface;
 
 bool code_connectivity(Context *context, Span payload, const Header *header, const Surface *surface, Arena *arena,

@@ -1,10 +1,11 @@
-/* CONNECTIVITY to faces (specification, C 4 to C 8), and the labels of PARTITION (C 10). */
+/* CONNECTIVITY to faces (specification, C 4 to C 8, C 13), and the labels of PARTITION (C 10). */
 #include "bitstream/payloads/payloads.h"
 
 #include "bitstream/connectivity/connectivity.h"
 
 enum { FIRST_NODES_ROOM = 16, EVENT_TRUST = 30,
-    FAN_BYTES = 32 /* more than the vertex of a fan, or a corner of a face that repeats one, can take */ };
+    FAN_BYTES = 32, /* more than the vertex of a fan, or a corner of a face that repeats one, can take */
+    EDGE_BYTES = 4 /* more than the last decision of an edge can take */ };
 /* Bytes that decoding and the graph take at most for each; only fans that are sewn together count (M 14.8). */
 static const double FACE_MEMORY = 100, VERTEX_MEMORY = 400, FAN_MEMORY = 240;
 
@@ -50,15 +51,23 @@ static bool code_surface(Coding *coding, Conquest *walk, Arena *scratch, Ints2 f
     }
 }
 
+/* Half-edges of faces of so many vertices in the order of their ends, where those of each lower end end in it, and the
+ * half-edge in the opposite direction of each. */
+static bool sort_halfedges(Arena *scratch, ConstInts origin, int64_t vertices, Longs *ends, Ints *order, Ints *twin) {
+    Ints by_high;
+    if (!take_longs(scratch, vertices + 1, ends) || !take_ints(scratch, origin.size, &by_high)
+        || !take_ints(scratch, origin.size, order) || !take_ints(scratch, origin.size, twin))
+        return false;
+    match_halfedges(origin, *ends, by_high, *order, *twin);
+    return true;
+}
+
 /* The fans after and before each fan along the boundary (C 7.1). */
 static bool find_borders(Arena *scratch, Ints2 faces, Ints after, Ints before) {
     int64_t size = 3 * faces.rows;
-    Longs starts;
-    Ints by_high, order, twin;
-    if (!take_longs(scratch, after.size + 1, &starts) || !take_ints(scratch, size, &by_high)
-        || !take_ints(scratch, size, &order) || !take_ints(scratch, size, &twin))
-        return false;
-    match_halfedges((ConstInts){faces.data, size}, starts, by_high, order, twin);
+    Longs ends;
+    Ints order, twin;
+    if (!sort_halfedges(scratch, (ConstInts){faces.data, size}, after.size, &ends, &order, &twin)) return false;
     for (int64_t i = 0; i < after.size; i++) after.data[i] = before.data[i] = -1;
     for (int64_t i = 0; i < size; i++)
         if (twin.data[i] < 0) after.data[faces.data[i]] = faces.data[next_halfedge((int32_t)i)];
@@ -86,6 +95,58 @@ static int64_t join_fans(Coding *coding, Arena *scratch, Ints2 faces, Ints known
     int64_t count = code_fans(&coding->coder, &bank, const_ints(known), seams);
     for (int64_t i = 0; count >= 0 && i < 3 * faces.rows; i++) faces.data[i] = vertex.data[faces.data[i]];
     return count;
+}
+
+#ifdef BSMDEC_WRITES
+/* Put faces that repeat a corner and are on no edge, in the order in which they were given, after `count` others. */
+static void list_others(const Surface *surface, int64_t count, Ints others) {
+    const int32_t *given = surface->used.data + surface->used.size - 3 * surface->on_edge.size;
+    int32_t *corner = others.data;
+    for (int32_t f = 0; f < surface->on_edge.size; f++) {
+        if (surface->on_edge.data[f] != NOT_ON_EDGES) continue;
+        for (int k = 0; k < 3; k++) *corner++ = given[3 * (int64_t)f + k];
+        surface->places.data[count++] = f;
+    }
+}
+#endif
+
+/* Faces that repeat a corner, on edges of the faces before them (C 13): the first of `corners`; `rest` are those of the
+ * faces that are on no edge. */
+static bool code_on_edges(Coding *coding, const Bank *rare, const Surface *surface, Ints2 faces, int64_t vertices,
+    Arena *scratch, Ints corners, Ints *rest) {
+    int64_t size = 3 * faces.rows, repeated = corners.size / 3, count = 0;
+    Edges edges = {.origin = {faces.data, size}};
+    Longs ends;
+    Ints order, twin;
+    Bank bank;
+    if (!sort_halfedges(scratch, edges.origin, vertices, &ends, &order, &twin)
+        || !make_bank(scratch, REPEAT_BANK, &bank)
+        || !zero_ints(scratch, vertices, &edges.valence) || !zero_ints(scratch, vertices, &edges.met)
+        || !zero_ints(scratch, vertices, &edges.repeated)
+        || !room_to_write(coding, EDGE_BYTES * size + FAN_BYTES * corners.size))
+        return false;
+    edges.order = const_ints(order);
+    for (int64_t i = 0; i < size; i++) edges.valence.data[faces.data[i]]++;
+#ifdef BSMDEC_WRITES
+    bool writes = coding->context->writing != NULL;
+    if (writes) {
+        const int32_t *given = surface->used.data + surface->used.size - corners.size;
+        /* Partners of half-edges count no more: there is room for the first face on each edge. */
+        edges.given = (FacesOnEdges){{given, corners.size}, twin, surface->on_edge, surface->places};
+        count = list_on_edges(&edges, const_longs(ends), vertices);
+    }
+#else
+    (void)surface; /* known to a writer only */
+#endif
+    count = code_count(coding, rare, count);
+    if (count > repeated) return nonsense(coding, "more faces are on edges than repeat a corner");
+    if (code_repeats(&coding->coder, &bank, &edges, (Ints){corners.data, 3 * count}) > 0)
+        return nonsense(coding, "fewer faces are on edges than a connectivity payload says");
+    *rest = (Ints){corners.data + 3 * count, corners.size - 3 * count};
+#ifdef BSMDEC_WRITES
+    if (writes) list_others(surface, count, *rest);
+#endif
+    return true;
 }
 
 #ifdef BSMDEC_WRITES
@@ -122,6 +183,7 @@ static bool code_faces_of(Coding *coding, const Header *header, const Surface *s
     Ints2 usual = {faces->data, proper, 3};
     Ints corners = {faces->data + 3 * proper, 3 * repeated}, known = {surface->used.data, fans};
     walk.vertex_room = fans + dummies;
+    Mark mark = mark_of(scratch);
     if (!code_surface(coding, &walk, scratch, usual) || !room_to_write(coding, FAN_BYTES * (fans + corners.size)))
         return false;
 #ifdef BSMDEC_WRITES
@@ -129,7 +191,12 @@ static bool code_faces_of(Coding *coding, const Header *header, const Surface *s
 #endif
     int64_t count = surplus > 0 ? join_fans(coding, scratch, usual, known) : fans;
     if (failed(context)) return false;
-    if (count != regular || code_degenerate(&coding->coder, corners, count) != header->vertices)
+    bool sound = count == regular;
+    release_to(scratch, mark);
+    if (sound && has_edges(header)
+        && !code_on_edges(coding, rare, surface, usual, regular, scratch, corners, &corners))
+        return false;
+    if (!sound || code_degenerate(&coding->coder, corners, count) != header->vertices)
         return nonsense(coding, "a connectivity payload does not make its vertices");
     return finish_coding(coding);
 }

@@ -92,6 +92,8 @@ def canonical(faces: Integers) -> Integers:
 
 def canonical_order(faces: Integers) -> tuple[Order, Order]:
     # Rotated and never sorted: the order of corners is the side that a face shows.
-    corners = (np.argmin(faces, axis=1)[:, None] + np.arange(3)) % 3
+    # The corner after the least one decides where a face has it twice.
+    pairs = faces.astype(np.int64) * (int(faces.max(initial=0)) + 2) + np.roll(faces, -1, axis=1)
+    corners = (np.argmin(pairs, axis=1)[:, None] + np.arange(3)) % 3
     turned = np.take_along_axis(faces, corners, axis=1)
     return np.lexsort(turned.T[::-1]), corners

@@ -11,6 +11,7 @@ from types import MappingProxyType
 import numpy as np
 import numpy.typing as npt
 
+from bsm.bitstream.connectivity.faces import AS_CORNERS, WHERE_SMALLER
 from bsm.bitstream.container import packets
 from bsm.bitstream.container.gop import write_gop_body
 from bsm.bitstream.container.header import Header
@@ -31,7 +32,7 @@ from bsm.codec.sequence.verification import ExpectedFrame, Measured, SequenceVer
 from bsm.codec.static.attributes.encoding import PreparedAttribute, carry, with_attributes
 from bsm.codec.static.attributes.quality import qualities
 from bsm.codec.static.encoder import PROMISED_SIZES
-from bsm.codec.static.preamble_encoding import Draft, JoinedMesh, Parts, Prepared, prepare
+from bsm.codec.static.preamble_encoding import Draft, Parts, Prepared, prepare
 from bsm.codec.static.targets import search_step
 from bsm.codec.static.units import checksum_of
 from bsm.codec.static.verification import AsGiven
@@ -296,7 +297,7 @@ class SequenceEncoder:
         """The packets of a run; `_done` grows by its frames."""
         self.run_starts.append(run.first)
         self._done, earlier = 0, meshes.find(run)
-        prepared = earlier.prepared if earlier else _prepared(run.joined, options)
+        prepared = earlier.prepared if earlier else _prepared(run, options)
         original = AsGiven(run.mesh, run.joined, prepared)
         self.vertex_order = original.vertex_order
         self.face_order = run.joined.coded_faces[prepared.face_order].astype(np.int64)
@@ -513,11 +514,12 @@ def _digest(run: JoinedRun) -> bytes:
     return digest.digest()
 
 
-def _prepared(joined: JoinedMesh, options: SequenceOptions) -> Prepared:
-    joined.mesh.require_sizes(*PROMISED_SIZES)
-    return prepare(
-        joined, Parts(options.block_size, options.overlap), keep_order=options.keep_order
-    )
+def _prepared(run: JoinedRun, options: SequenceOptions) -> Prepared:
+    run.joined.mesh.require_sizes(*PROMISED_SIZES)
+    # Values of attributes follow the order of faces, and might lose more than faces gain on edges.
+    repeats = AS_CORNERS if run.mesh.attributes else WHERE_SMALLER
+    parts = Parts(options.block_size, options.overlap)
+    return prepare(run.joined, parts, keep_order=options.keep_order, repeats=repeats)
 
 
 def _positions(frame: Frame) -> Matrix:

@@ -116,13 +116,12 @@ def encode_first_frame(
         progress=progress,
     )
     header = Header(
-        vertices=prepared.graph.size,
-        faces=len(prepared.mesh.faces),
         block_size=prepared.size,
         coefficients=width,
         center=prepared.units.center,
         scale=prepared.units.scale,
         sequence=(frames, options.together(prepared.graph.size)),
+        **prepared.fields,
         **scheme.fields(),
     )
     positions = blended(prepared.graph.size, (block.decoded for block in blocks))

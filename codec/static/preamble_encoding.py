@@ -5,13 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from bsm._core import Cut, Field, GivenMesh
 from bsm._core.bitstream import constant
-from bsm.bitstream.connectivity.faces import EncodedConnectivity
+from bsm.bitstream.connectivity.faces import WHERE_SMALLER, EncodedConnectivity
 from bsm.bitstream.container import packets
 from bsm.bitstream.container.header import Header
 from bsm.bitstream.container.packets import Packet, SectionWriter, write_brief
@@ -172,6 +173,7 @@ class Prepared:
     parts: Parts
     units: Units
     connectivity: packets.Connectivity
+    repeats: int  # how faces that repeat a corner are coded, as in the header
     order: tuple[packets.Order, ...]
     coding_order: Order
     vertex_order: Order
@@ -243,6 +245,11 @@ class Prepared:
         return grow_blocks(self.graph, self.partition, self.size)
 
     @property
+    def fields(self) -> dict[str, Any]:
+        """The fields of the header that every stream of this mesh has."""
+        return {"vertices": self.graph.size, "faces": len(self.mesh.faces), "repeats": self.repeats}
+
+    @property
     def before_blocks(self) -> tuple[packets.Connectivity | packets.Labels | packets.Order, ...]:
         """Return the packets between header and blocks."""
         return (self.connectivity, *self.parts.labels(self.graph, self.partition), *self.order)
@@ -300,9 +307,10 @@ def prepare(
     keep_order: bool,
     light: bool = False,
     congruence: bool = False,
+    repeats: int = WHERE_SMALLER,
 ) -> Prepared:
     """Code the connectivity of a mesh."""
-    mesh, connectivity = joined.mesh, EncodedConnectivity(*joined.coding.code())
+    mesh, connectivity = joined.mesh, EncodedConnectivity(*joined.coding.code(repeats=repeats))
     coding_order = connectivity.vertex_order.astype(np.int64)
     coding_faces = np.ascontiguousarray(connectivity.face_order, np.int32)
     ordered = TriangleMesh(sealed(mesh.positions[coding_order]), sealed(connectivity.faces))
@@ -313,6 +321,7 @@ def prepare(
         parts=parts,
         units=units_of(ordered),
         connectivity=packets.Connectivity(connectivity.payload),
+        repeats=connectivity.repeats,
         order=order,
         coding_order=coding_order,
         # A stream with an order is decoded in the given one, so for callers nothing has moved.
@@ -355,7 +364,13 @@ class Draft:
             any(self.header.turn),
         )
         # The lowest version that knows everything in the stream, so that the oldest decoders still read what they can.
-        minor = 3 if self.header.swift else 2 if self.header.base else int(any(later))
+        minor = (
+            3
+            if self.header.swift or self.header.repeats
+            else 2
+            if self.header.base
+            else int(any(later))
+        )
         yield writer.start(minor)
         if brief is not None:
             yield write_frame(FrameType.HEADER, brief)

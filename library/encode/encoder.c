@@ -157,7 +157,8 @@ static bool code_faces_first(Encoder *encoder, Payload *writing) {
     PayloadWriter *writer = &encoder->writer;
     CodedMesh *coded = &encoder->coded;
     int64_t n = encoder->joined.first.size;
-    *coded = (CodedMesh){.given = &encoder->given, .joined = &encoder->joined, .keeps = encoder->options.keep_order};
+    *coded = (CodedMesh){.given = &encoder->given, .joined = &encoder->joined, .keeps = encoder->options.keep_order,
+        .repeats = encoder->carried_count > 0 ? AS_CORNERS : WHERE_SMALLER}; /* values follow the order of faces */
     return order_faces(writer, NULL, n, writing, coded)
         && (encoder->carried_count == 0
             || link_mesh(&writer->context, const_ints2(coded->faces), n, &writer->arena, &writer->scratch,
@@ -250,13 +251,14 @@ static bool write_body(Encoder *encoder, const Payload *connectivity, Chunks *ch
     header.attributes = encoder->carried_count;
     encoder->coded.swift = moves ? 0 : encoder->options.quick ? 1 : 2;
     header.swift = header.attributes > 0 ? encoder->coded.swift : 0;
+    header.repeats = encoder->coded.repeats;
     for (int k = 0; k < encoder->carried_count; k++) {
         double part = (double)(k + 1) / encoder->carried_count;
         if (!code_attribute(encoder, k, &chunks[k])
             || !report(encoder, FACES_CODED + part * (ATTRIBUTES_CODED - FACES_CODED)))
             return false;
     }
-    start_stream(out, &encoder->writer.context, header.swift > 0 ? MINOR_OF_SWIFT : 0);
+    start_stream(out, &encoder->writer.context, header.swift + header.repeats > 0 ? MINOR_OF_SWIFT : 0);
     const Record record = header_record(&header);
     put_record(&out->payload, HEADER_FIELDS, &record);
     put_section(out, HEADER_FRAME);

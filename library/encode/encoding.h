@@ -55,6 +55,7 @@ typedef struct {
     Bytes turns;           /* m: the corner of the joined face that is the first of the coded one */
     Corners corners;
     int swift;             /* how values of attributes are coded, as in the header */
+    int repeats;           /* how faces that repeat a corner are coded; once they are, as in the header */
 } CodedMesh;
 /* Write CONNECTIVITY of a joined mesh of so many vertices, and put it in the order of coding. `merged`: the vertex of
  * each of its numbers, NULL: the number itself. */

@@ -172,8 +172,8 @@ bool order_faces(PayloadWriter *writer, const int32_t *merged, int64_t vertices,
     Source given = {joined->faces.data, merged, m, joined->first.size, 1};
     return take_ints(arena, vertices, &coded->vertex_order) && take_ints(arena, m, &coded->face_order)
         && take_ints2(arena, m, 3, &coded->faces) && take_bytes(arena, m, &coded->turns)
-        && write_faces(writer, given, vertices, writing, coded->vertex_order.data, coded->face_order.data,
-            coded->faces.data, coded->turns.data);
+        && write_faces(writer, given, vertices, &coded->repeats, writing, coded->vertex_order.data,
+            coded->face_order.data, coded->faces.data, coded->turns.data);
 }
 
 #endif

@@ -359,14 +359,15 @@ class OrderedMesh : public Shared, Output {
         run([&] { return encode_joined(encoding, given, places, keep, keeps, &found); });
         return std::make_tuple(copied(found.index), copied(found.first), copied(found.kept), found.merged, found.loose);
     }
-    // The payload of faces, the order of vertices and of faces in it, the decoded faces and their turns.
-    auto code(std::optional<Row<int32_t>> merged) {
+    // The payload of faces, the order of vertices and of faces in it, the decoded faces and their turns, and `repeats`
+    // of the header; the given one is 0, 1, or 2 for the smaller payload.
+    auto code(std::optional<Row<int32_t>> merged, int repeats) {
         CodedArrays found;
         ConstInts own = {merged ? merged->data() : nullptr, merged ? (int64_t)merged->size() : 0};
-        run([&] { return encode_faces(encoding, own, &found); });
+        run([&] { return encode_faces(encoding, own, repeats, &found); });
         coded = found.faces.rows;
         return std::make_tuple(nb::bytes(payloads()[0]), copied(found.vertices), copied(found.face_order),
-            copy_of(found.faces.data, coded, 3), copied(found.turns));
+            copy_of(found.faces.data, coded, 3), copied(found.turns), found.repeats);
     }
     nb::bytes order(ConstDoubles2 positions) {
         run([&] { return encode_order(encoding, positions); });
@@ -714,7 +715,7 @@ NB_MODULE(_core, m) {
     nb::class_<OrderedMesh>(m, "GivenMesh")
         .def(nb::init<ConstInts2, ConstInts>(), "faces"_a, "places"_a, nb::keep_alive<1, 2>(), nb::keep_alive<1, 3>())
         .def("join", in_turn(&OrderedMesh::join), "keep"_a, "keeps"_a)
-        .def("code", in_turn(&OrderedMesh::code), "merged"_a.none() = nb::none())
+        .def("code", in_turn(&OrderedMesh::code), "merged"_a.none() = nb::none(), "repeats"_a = 2)
         .def("order", in_turn(&OrderedMesh::order), "positions"_a)
         .def("carry", in_turn(&OrderedMesh::carry), "first"_a, "name"_a, "values"_a, "kind"_a, "domain"_a, "semantic"_a,
             "indices"_a.none(), "quality"_a, "amount"_a);

@@ -113,18 +113,21 @@ bool encode_joined(Encoding *encoding, ConstInts2 faces, ConstInts places, bool 
     return done;
 }
 
-bool encode_faces(Encoding *encoding, ConstInts merged, CodedArrays *arrays) {
+bool encode_faces(Encoding *encoding, ConstInts merged, int repeats, CodedArrays *arrays) {
     int64_t n = encoding->joined.first.size, vertices = merged.data != NULL ? 0 : n;
     CodedMesh *coded = &encoding->coded;
     if (coded->joined == NULL || (merged.data != NULL && (merged.size != n || !are_below(merged.data, n, 0, n))))
         return FAIL(&encoding->writer.context, MISUSED, "# vertices are merged of # joined ones", merged.size, n);
+    if (repeats < AS_CORNERS || repeats > WHERE_SMALLER)
+        return FAIL(&encoding->writer.context, MISUSED, "# is not a way to code faces that repeat a corner", repeats);
     for (int64_t i = 0; i < merged.size; i++) vertices = largest(vertices, merged.data[i] + 1);
     encoding->carried = NULL; /* the attributes of another order */
+    coded->repeats = repeats;
     if (!begin_again(encoding, 1 << 16)
         || !order_faces(&encoding->writer, merged.data, vertices, &encoding->payloads, coded))
         return false;
     *arrays = (CodedArrays){const_ints(coded->vertex_order), const_ints(coded->face_order), const_ints2(coded->faces),
-        const_bytes(coded->turns)};
+        const_bytes(coded->turns), coded->repeats};
     return true;
 }
 

@@ -15,7 +15,7 @@ typedef struct {
 } DecoderState;
 DecoderState decoder_state(const bsmdec *decoder);
 /* The numbers of a field of the header of the present run, and how many there are. */
-enum { MOST_FIELD_KEY = 29 };
+enum { MOST_FIELD_KEY = 30 };
 int decoder_field(const bsmdec *decoder, int key, const double **numbers);
 /* What a packet says before it is decoded; `positions` is their checksum or -1. What follows is of an attribute. */
 typedef struct {
@@ -59,8 +59,10 @@ typedef struct {
     ConstInts vertices, face_order;
     ConstInts2 faces;
     ConstBytes turns;
+    int repeats;
 } CodedArrays;
-bool encode_faces(Encoding *encoding, ConstInts merged, CodedArrays *arrays);
+/* Code faces, those that repeat a corner as `repeats` says (library/writing.h). */
+bool encode_faces(Encoding *encoding, ConstInts merged, int repeats, CodedArrays *arrays);
 bool encode_order(Encoding *encoding, ConstDoubles2 positions);
 /* The outcome of an attribute in such a place (library/encode/encoding.h), and arrays of the encoding: coded numbers,
  * the coded value of each corner (NULL: its vertex), the vertex of each. */

@@ -32,11 +32,13 @@ from tools.bsmenc import (
     library,
 )
 from tools.vectors.good_attributes import charts, creases, with_attributes
+from tools.vectors.good_repeats import plaited
 from tools.vectors.good_swift import tangents
 
 TOUCHING = soup(
     together(torus(9, 7), boxes(*np.ndindex(1, 2, 3)), soup(patch(3, 3)), boxes((1, 0, 0)))
 )
+PLAITED = plaited(torus(20, 12), 1)
 MIXED = TriangleMesh(TOUCHING.positions, np.random.default_rng(2).permutation(TOUCHING.faces))
 
 
@@ -83,7 +85,7 @@ def filmed(positions, faces, *attributes):
 @pytest.mark.parametrize("keep", [False, True])
 @pytest.mark.parametrize("preset", ["grid14", "lossless"])
 @pytest.mark.parametrize(
-    "mesh", [tetrahedron(), torus(20, 12), MIXED, dressed(torus(20, 12)), TOUCHING]
+    "mesh", [tetrahedron(), torus(20, 12), MIXED, dressed(torus(20, 12)), TOUCHING, PLAITED]
 )
 def test_c_and_python_write_the_same_bytes(encoder, mesh, preset, keep):
     found = encode(encoder, mesh, positions=LOSSLESS * (preset == "lossless"), keep_order=keep)

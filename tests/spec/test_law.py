@@ -223,6 +223,11 @@ def test_1_0_refuses_swift_attributes_by_the_number_of_their_field(earlier):
     assert found.status == 5 and found.message == "field 28 is unknown to this decoder"
 
 
+def test_1_0_refuses_faces_on_edges_by_the_number_of_their_field(earlier):
+    found = decode(earlier, (FOLDER.parent / "1.3" / "good-repeats-grid.bsm").read_bytes())
+    assert found.status == 5 and found.message == "field 29 is unknown to this decoder"
+
+
 def test_1_0_refuses_brief_streams_by_the_number_of_their_field(earlier):
     found = decode(earlier, (FOLDER.parent / "1.1" / "good-brief-plain.bsm").read_bytes())
     assert found.status == 5 and found.message == "field 23 is unknown to this decoder"

@@ -60,6 +60,7 @@ THINGS = {
     "HEADER again": ("runs-again", "sequence-runs-again"),
     "METADATA": ("metadata-entries", "metadata-long"),
     "CONNECTIVITY": ("runs", "mesh"),
+    "CONNECTIVITY on edges": ("edges-many", "edges"),
     "PARTITION": ("runs-parts", "scattered"),
     "ORDER": ("runs-order", "copies"),
     "ATTRIBUTE": ("runs-attributes", "seams"),

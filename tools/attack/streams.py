@@ -10,7 +10,12 @@ import numpy.typing as npt
 
 from bsm._core import Cut, GivenMesh
 from bsm.bitstream.coefficients.packed import pack_coefficients
-from bsm.bitstream.connectivity.faces import EncodedConnectivity, encode_connectivity
+from bsm.bitstream.connectivity.faces import (
+    AS_CORNERS,
+    ON_EDGES,
+    EncodedConnectivity,
+    encode_connectivity,
+)
 from bsm.bitstream.container import packets
 from bsm.bitstream.container.gop import METHODS, RUNS, GopBody, GopField, GopMethod, write_gop_body
 from bsm.bitstream.container.header import (
@@ -57,7 +62,9 @@ def _coded(name: str, *arguments: int) -> EncodedConnectivity:
     if name == "glued":
         return _glued(*arguments)
     faces = SHAPES[name](*arguments)
-    return encode_connectivity(faces, int(faces.max()) + 1)
+    return encode_connectivity(
+        faces, int(faces.max()) + 1, ON_EDGES if name == "edges" else AS_CORNERS
+    )
 
 
 def _glued(rows: int, columns: int) -> EncodedConnectivity:
@@ -109,10 +116,22 @@ def _heap(rows: int, columns: int, count: int) -> Faces:
     return np.concatenate([faces, np.tile(faces[0], (count, 1))])
 
 
+def _edges(rows: int, columns: int, count: int) -> Faces:
+    """A torus, and faces that repeat a corner, all on the edge of the latest vertices."""
+    faces = torus(rows, columns).faces
+    coded = encode_connectivity(faces, rows * columns)
+    ends = np.sort(coded.faces, axis=1)[:, 1:]
+    low, high = coded.vertex_order[ends[np.lexsort(ends.T[::-1])[-1]]]
+    return np.concatenate(
+        [faces, np.tile(np.array([low, low, high], np.int32), (count, 1))]
+    ).astype(np.int32)
+
+
 SHAPES: dict[str, Callable[..., Faces]] = {
     "torus": lambda rows, columns: torus(rows, columns).faces,
     "wheels": _wheels,
     "heap": _heap,
+    "edges": _edges,
     "soup": _soup,
     "repeated": _repeated,
     "pieces": _pieces,
@@ -121,7 +140,8 @@ SHAPES: dict[str, Callable[..., Faces]] = {
 
 def _header(coded: EncodedConnectivity, **fields: Any) -> tuple[int, bytes]:
     """A header frame of any fields, unchecked."""
-    return header_frame(**{"vertices": len(coded.vertex_order), "faces": len(coded.faces)} | fields)
+    own = {"vertices": len(coded.vertex_order), "faces": len(coded.faces), "repeats": coded.repeats}
+    return header_frame(**own | fields)
 
 
 def _faces(coded: EncodedConnectivity) -> tuple[int, bytes]:
@@ -647,6 +667,9 @@ BOMBS: dict[str, Callable[[], bytes]] = {
         500, 500, 4, 1 << 15, swift=2, kind=6, components=3, coding=OCTAHEDRAL, largest=(1022, 1022)
     ),
     "swift-small": lambda: _valued(3, 3, 255, 9, swift=2),  # 255 attributes of nine vertices
+    # Edges of a million vertices, the last of which has all faces that repeat a corner
+    "edges": lambda: _grid(("edges", 1000, 1000, 1), 1 << 15, light=1),
+    "edges-many": lambda: _grid(("edges", 20, 20, 600000), 1 << 15, light=1),
     # 60 attributes with seams of their own on a million vertices.
     "seams": lambda: _seamed(1024, 1024, 60),
     "seams-many": lambda: _seamed(256, 256, 255),  # 255 of them on fewer

@@ -27,7 +27,17 @@ FRAME_NEEDS = {
     FrameType.PARTITION: "paper",
     FrameType.ATTRIBUTE: "attributes",
 }
-FIELD_NEEDS = ("light", "congruence", "turn", "base", "swift", "paper", "attributes", "sequence")
+FIELD_NEEDS = (
+    "light",
+    "congruence",
+    "turn",
+    "base",
+    "swift",
+    "repeats",
+    "paper",
+    "attributes",
+    "sequence",
+)
 MANIFEST = "manifest.json"
 ROUNDING = 1e-6
 """How far floats of attributes may be, for ones above 1 relatively."""

@@ -35,11 +35,11 @@ export function needOf(data: Uint8Array): Need | undefined {
             const value = header.get(key);
             return Number((value?.type === "array" ? value.value[0] : value)?.value ?? 0);
         };
-        const { blocks, blockSize, paper, sequence, attributes, light, congruence, vertices } = HEADER_KEYS;
+        const { blocks, blockSize, paper, sequence, attributes, light, congruence, repeats, vertices } = HEADER_KEYS;
         const buildOf = (): Build => {
             if (first(paper) > 0 || header.has(attributes)) return "whole";
             if (header.has(sequence)) return "moving";
-            if (first(light) === 1) return header.has(congruence) ? "parts" : "quick";
+            if (first(light) === 1 && !header.has(repeats)) return header.has(congruence) ? "parts" : "quick";
             return header.has(blocks) ? "blocks" : "grid"; // also of brief streams, whose header is one field
         };
         return { build: buildOf(), members: first(blocks) * first(blockSize), vertices: first(vertices) };

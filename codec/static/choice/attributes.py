@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from bsm.bitstream.connectivity.faces import AS_CORNERS, ON_EDGES, WHERE_SMALLER
 from bsm.bitstream.errors import TargetError
 from bsm.bitstream.once import cached_property, with_results
 from bsm.codec.arrays import Positions
@@ -38,6 +39,7 @@ from bsm.codec.static.targets import SLACK, Contract
 SWIFT = {"quick": 1, "normal": 2, "best": 0}
 """How values of attributes are coded, `swift` of the header, by the effort: decoders of more bytes are quicker."""
 NEAR = 1.0  # degrees by which computed normals may differ from the given ones that they replace
+LOSS_GROWS = 3  # how many times as many bytes finer values may lose
 # Of the look that is promised, what rounding these may take.
 ATTRIBUTE_SHARE = {"texcoord": 0.33, "color": 0.2}
 
@@ -68,16 +70,40 @@ class Sent:
     def _begun(self) -> tuple[JoinedMesh, Prepared]:
         options = self.options
         joined = join(self.source, keep=options.keep_order, exact=options.exact)
-        prepared = prepare(
+        prepared = self._prepare(joined, WHERE_SMALLER)
+        if prepared.repeats == ON_EDGES and self.source.attributes:
+            prepared = self._with_attributes_smaller(joined, prepared)
+        if not self.source.attributes:
+            joined = replace(joined, coder=None)  # it is as large as ten meshes
+        return joined, prepared
+
+    def _prepare(self, joined: JoinedMesh, repeats: int) -> Prepared:
+        options = self.options
+        return prepare(
             joined,
             Parts.of(options.block_size, options.growth, options.paper.partition),
             keep_order=options.keep_order,
             light=options.effort == "quick",
             congruence=options.congruence,
+            repeats=repeats,
         )
-        if not self.source.attributes:
-            joined = replace(joined, coder=None)  # it is as large as ten meshes
-        return joined, prepared
+
+    def _with_attributes_smaller(self, joined: JoinedMesh, on_edges: Prepared) -> Prepared:
+        """The mesh with faces that repeat a corner on edges, or by their corners if values of attributes need that."""
+        # Values come in the order of faces, and each is predicted from the one before it as well.
+        values_on_edges = self._values_size(joined, on_edges)
+        as_corners = self._prepare(joined, AS_CORNERS)
+        lost = max(values_on_edges - self._values_size(joined, as_corners), 0)
+        gained = len(as_corners.connectivity.data) - len(on_edges.connectivity.data)
+        # The qualities of now may become finer, and then such a loss grows.
+        return self._prepare(joined, ON_EDGES) if gained > LOSS_GROWS * lost else as_corners
+
+    def _values_size(self, joined: JoinedMesh, prepared: Prepared) -> int:
+        """Bytes of all attributes, not predicted from positions, on the faces that were prepared last."""
+        carried = carry(
+            joined.coding, prepared.mesh.faces, self.qualities, SWIFT[self.options.effort]
+        )
+        return sum(attribute.size for attribute in carried)
 
     def rested(self) -> Sent:
         """Return the input without all that was measured for the search; it is measured again if it is needed."""

@@ -52,7 +52,7 @@ def grid_draft(
     `decoded`, if known, are the positions of the places.
     """
     grid = replace(grid, light=grid.light or prepared.light)
-    header = Header(vertices=prepared.graph.size, faces=len(prepared.mesh.faces), **grid.fields)
+    header = Header(**prepared.fields, **grid.fields)
     faces = prepared.linked if brief else prepared.mesh.faces  # if others follow
     coded: Iterable[packets.Grid] = ()
     if targets is None:
@@ -125,7 +125,7 @@ def exact(prepared: Prepared) -> Draft:
         replace(grid, exact=True),
         prepared.mesh.positions.astype(np.float32).astype(np.float64),
     )
-    header = Header(vertices=prepared.graph.size, faces=len(prepared.mesh.faces), **grid.fields)
+    header = Header(**prepared.fields, **grid.fields)
     body = (*prepared.before_grid, *encode_grid(prepared.mesh.faces, grid, places, positions))
     return Draft(header, body, positions, places)
 

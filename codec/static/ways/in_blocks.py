@@ -170,14 +170,13 @@ class InBlocks:
         positions = blended(prepared.graph.size, (block.decoded for block in blocks))
         smoothing = options.fixed_smoothing
         header = Header(
-            vertices=prepared.graph.size,
-            faces=len(prepared.mesh.faces),
             block_size=prepared.size,
             coefficients=max(block.packet.coefficients for block in blocks),
             center=prepared.units.center,
             scale=prepared.units.scale,
             # The filter is chosen after coding, on what was decoded, since it is to undo what coding did.
             smoothing=self._smoothing(positions) if smoothing is None else single(smoothing),
+            **prepared.fields,
             **scheme.fields(),
         )
         decoded = smooth(prepared.graph, positions, header.smoothing)

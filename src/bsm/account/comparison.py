@@ -10,7 +10,7 @@ from typing import TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from bsm.bitstream.connectivity.faces import encode_connectivity
+from bsm.bitstream.connectivity.faces import AS_CORNERS, ON_EDGES, encode_connectivity
 from bsm.bitstream.errors import ArgumentError, FormatError, MeshError, public
 from bsm.codec.arrays import Faces, Integers, Mask, Order, Positions
 from bsm.codec.geometry.attributes import Attribute, AttributeComparison, at_corners, compare_values
@@ -113,17 +113,23 @@ def numbering(original: TriangleMesh, other: TriangleMesh, order: Order | None =
         return rows
     if order is None:
         by_decoder = encode_connectivity(original.faces, count)
-        if np.array_equal(by_decoder.faces, faces):
+        # Faces that repeat a corner come in another order where a stream has them on edges.
+        if _same(by_decoder.faces, faces):
             return np.argsort(by_decoder.vertex_order)
     if np.array_equal(canonical(original.faces), canonical(faces)):
         return rows
     if order is None:
         encoded = encode_connectivity(faces, count)
-        if np.array_equal(by_decoder.faces, encoded.faces):
+        if _same(by_decoder.faces, encoded.faces):
             return encoded.vertex_order[np.argsort(by_decoder.vertex_order)].astype(np.int64)
     raise MeshError(
         "the meshes have different faces or another order of vertices; use --permutation or --surface"
     )
+
+
+def _same(faces: Faces, others: Faces) -> bool:
+    """Whether these are the same faces, in any order."""
+    return np.array_equal(faces, others) or np.array_equal(canonical(faces), canonical(others))
 
 
 def _collapsed(original: TriangleMesh, other: TriangleMesh) -> str:
@@ -189,9 +195,17 @@ def paired_corners(original: TriangleMesh, other: TriangleMesh, rows: Order) -> 
 
 def unsplit(original: TriangleMesh, other: TriangleMesh) -> TriangleMesh | None:
     """The decoded mesh of which `other` is what became after vertices were split; faces and corners stay."""
-    faces = encode_connectivity(original.faces, len(original.positions)).faces
-    if len(faces) != len(other.faces):
+    if len(original.faces) != len(other.faces):
         return None
+    for repeats in (AS_CORNERS, ON_EDGES):
+        faces = encode_connectivity(original.faces, len(original.positions), repeats).faces
+        if (whole := _unsplit(original, other, faces)) is not None:
+            return whole
+    return None
+
+
+def _unsplit(original: TriangleMesh, other: TriangleMesh, faces: Faces) -> TriangleMesh | None:
+    """The same where these faces are the decoded ones."""
     some = np.zeros(len(original.positions), np.int64)
     some[faces] = other.faces
     whole = np.full(len(other.positions), -1, np.int64)

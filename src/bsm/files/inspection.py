@@ -261,6 +261,7 @@ def summarize_stream(info: StreamInfo) -> dict[str, Any]:
         "turn": any(header.turn),
         "base": bool(header.base),
         "swift": header.swift > 0,
+        "repeats": header.repeats > 0,
         "brief": info.brief,
         "paper": bool(header.paper) or sizes["partition"] > 0,
         "attributes": header.attributes > 0,

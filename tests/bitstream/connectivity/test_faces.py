@@ -22,7 +22,7 @@ from bsm import (
     read_mesh,
 )
 from bsm._core import Cut, GivenMesh
-from bsm.bitstream.connectivity.faces import EncodedConnectivity, encode_connectivity
+from bsm.bitstream.connectivity.faces import AS_CORNERS, EncodedConnectivity, encode_connectivity
 from tests.bitstream.attributes.test_values import place_of
 from tests.bitstream.fields.fields import SOUPS
 from tests.blocks import graph_of
@@ -54,10 +54,12 @@ def compact(faces: Faces) -> tuple[Faces, int]:
     return numbers.reshape(-1, 3).astype(np.int32), len(used)
 
 
-def check_round_trip(faces: Faces, vertex_count: int) -> EncodedConnectivity:
+def check_round_trip(
+    faces: Faces, vertex_count: int, repeats: int = AS_CORNERS
+) -> EncodedConnectivity:
     """Decode, compare with what was given, and encode again."""
-    encoded = encode_connectivity(faces, vertex_count)
-    decoded = decode_connectivity(encoded.payload, vertex_count, len(faces))
+    encoded = encode_connectivity(faces, vertex_count, repeats)
+    decoded = decode_connectivity(encoded.payload, vertex_count, len(faces), repeats=repeats)
     assert decoded.dtype == np.int32
     np.testing.assert_array_equal(decoded, encoded.faces)
     np.testing.assert_array_equal(np.sort(encoded.vertex_order), np.arange(vertex_count))
@@ -66,7 +68,7 @@ def check_round_trip(faces: Faces, vertex_count: int) -> EncodedConnectivity:
     same = [(np.roll(original, k, axis=1) == mapped).all(axis=1) for k in range(3)]
     assert np.logical_or.reduce(same).all()
 
-    again = encode_connectivity(decoded, vertex_count)
+    again = encode_connectivity(decoded, vertex_count, repeats)
     assert again.payload == encoded.payload
     np.testing.assert_array_equal(again.faces, decoded)
     np.testing.assert_array_equal(again.vertex_order, np.arange(vertex_count))
