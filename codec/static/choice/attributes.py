@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from bisect import bisect_left
 from collections.abc import Sequence
-from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -134,9 +133,10 @@ class Sent:
 
     def qualities_with(self, index: int, quality: Quality) -> tuple[tuple[Attribute, Quality], ...]:
         """All attributes, one of them with another quality."""
-        return tuple(
-            (a, quality if at == index else usual) for at, (a, usual) in enumerate(self.qualities)
-        )
+        pairs = list(self.qualities)
+        attribute, _ = pairs[index]
+        pairs[index] = attribute, quality
+        return tuple(pairs)
 
     def carry_with(self, index: int, quality: Quality) -> tuple[PreparedAttribute, ...]:
         return self.carry(self.qualities_with(index, quality))
@@ -144,7 +144,9 @@ class Sent:
     @cached_property
     def normals(self) -> Normals | None:
         """Normals that the mesh is sent with, of its corners in the order of coding, shape (m, 9)."""
-        return None if self.shown_normals is None else self._own_normals
+        if self.shown_normals is None:
+            return None
+        return self._own_normals
 
     @cached_property
     def _own_normals(self) -> Normals | None:
@@ -190,27 +192,26 @@ class Sent:
     @cached_property
     def shown_normals(self) -> int | None:
         """The number of the sent normals that pictures show."""
-        return next(
-            (at for at, (attribute, _) in enumerate(self.qualities) if shades(attribute)), None
-        )
+        for number, (attribute, _) in enumerate(self.qualities):
+            if shades(attribute):
+                return number
+        return None
 
     @cached_property
     def free_normals(self) -> int | None:
         """The number of the normals without a requested quality, which the look may choose."""
-        options = self.options
+        requested = dict(self.options.attributes)
         first = self.shown_normals
-        if (
-            options.normals != "look"
-            or "*" in dict(options.attributes)
-            or first is None
-            or self.normals is None
-        ):
+        if self.options.normals != "look" or "*" in requested:
+            return None
+        if first is None or self.normals is None:
             return None
         attribute, quality = self.qualities[first]
-        is_chosen = (
-            attribute.name in dict(options.attributes) or not np.isfinite(self.normals).all()
-        )
-        return None if is_chosen or quality.way != "bits" else first
+        if attribute.name in requested or quality.way != "bits":
+            return None
+        if not np.isfinite(self.normals).all():
+            return None
+        return first
 
     def computes_near_normals(self, decoded: Positions, computed: PreparedAttribute) -> bool:
         """Whether each normal that a decoder computes is within `NEAR` of the given one."""
@@ -220,7 +221,8 @@ class Sent:
         # A normal without a length has no angle to any other.
         if not original.any(axis=1).all():
             return False
-        apart = np.linalg.norm(computed.normals(decoded).reshape(-1, 3) - original, axis=1)
+        computed_normals = computed.normals(decoded).reshape(-1, 3)
+        apart = np.linalg.norm(computed_normals - original, axis=1)
         farthest = 2.0 * math.sin(math.radians(NEAR) / 2.0)
         return bool(apart.max(initial=0.0) <= farthest)
 
@@ -230,22 +232,23 @@ class Sent:
         trial = trial_of(self.prepared, draft)
         metric = bounds.metric
         if metric is None:
-            return "" if bounds.keeps(trial) else bounds.had, None, bounds.binding(trial)
+            return bounds.broken_by(trial), None, bounds.binding(trial)
         distances = [metric.bare(decoded).distance]
         distances += [
             look.distance(decoded, self.carried[at].at_corners) for at, look in self.looks
         ]
         bound = others = max(*distances, metric.distance(decoded))
-        if (number := self.shown_normals) is not None:
+        number = self.shown_normals
+        if number is not None:
             shaded = metric.shaded(decoded, self.carried[number].normals(decoded))
-            if self.qualities[number][1].way != "recompute":  # which viewers may do, too
-                bound = max(bound if self.free_normals is None else 0.0, *distances, *shaded)
+            _, quality = self.qualities[number]
+            if quality.way != "recompute":  # which viewers may do, too
+                if self.free_normals is not None:
+                    bound = 0.0
+                bound = max(bound, *distances, *shaded)
             distances.append(shaded[0])
-        elif self._own_normals is not None:  # which viewers compute
-            metric_of_own = self._measuring(self._own_normals).look
-            if metric_of_own:
-                moved = replace(self.prepared.mesh, positions=decoded)
-                distances.append(metric_of_own.compare(moved).distance)
+        else:
+            distances += self._distances_of_own_normals(decoded)
         if (
             self.free_normals is None
             and bounds.keeps(trial, others)
@@ -255,7 +258,17 @@ class Sent:
                 f"{contract} cannot be kept with this quality of normals; the look is {bound:.3g}"
             )
         binding = bounds.binding(trial, bound)
-        return "" if bounds.keeps(trial, bound) else bounds.had, max(distances), binding
+        return bounds.broken_by(trial, bound), max(distances), binding
+
+    def _distances_of_own_normals(self, decoded: Positions) -> list[float]:
+        """The look distance with normals that viewers compute, if the mesh comes with any."""
+        if self._own_normals is None:
+            return []
+        metric = self._measuring(self._own_normals).look
+        if not metric:
+            return []
+        moved = replace(self.prepared.mesh, positions=decoded)
+        return [metric.compare(moved).distance]
 
 
 def smallest(sender: Sent, contract: Contract, progress: Nearing | None) -> tuple[Sent, Draft]:
@@ -286,29 +299,32 @@ def _roughen(sender: Sent, at: int, attribute: Attribute, most: float) -> Sent:
     least = min(math.ceil(math.log2(max(2048.0 * extent, 2.0))), MOST_BITS)
     steps = [Quality("bits", bits) for bits in range(least, MOST_BITS + 1)]
     if attribute.semantic == "color":
-        rough = range(0 if kept_whole(attribute) else 15)
-        steps = [*(Quality("share", 25.0 * 0.5 ** (k / 2)) for k in rough), Quality("exact")]
-    mesh = sender.prepared.mesh
-    look_of = AttributeLook(
-        mesh,
-        attribute.semantic,
-        sender.carry_with(at, steps[-1])[at].at_corners,
-        threads=sender.options.threads,
-    )
+        steps = _color_qualities(attribute)
+    mesh, threads = sender.prepared.mesh, sender.options.threads
+
+    def carry_at(step: int) -> PreparedAttribute:
+        return sender.carry_with(at, steps[step])[at]
+
+    finest = carry_at(-1).at_corners
+    look_of = AttributeLook(mesh, attribute.semantic, finest, threads=threads)
 
     def is_near(step: int) -> bool:
-        return (
-            look_of.distance(mesh.positions, sender.carry_with(at, steps[step])[at].at_corners)
-            <= most
-        )
+        distance = look_of.distance(mesh.positions, carry_at(step).at_corners)
+        return distance <= most
 
-    step = steps[bisect_left(range(len(steps) - 1), True, key=is_near)]
-    if (
-        attribute.semantic == "texcoord"
-        or sender.carry_with(at, step)[at].size < sender.carried[at].size
-    ):
-        sender = sender.but(qualities=sender.qualities_with(at, step))
+    step = bisect_left(range(len(steps) - 1), True, key=is_near)
+    if attribute.semantic == "texcoord" or carry_at(step).size < sender.carried[at].size:
+        chosen_qualities = sender.qualities_with(at, steps[step])
+        return sender.but(qualities=chosen_qualities, looks=(*sender.looks, (at, look_of)))
     return sender.but(looks=(*sender.looks, (at, look_of)))
+
+
+def _color_qualities(colors: Attribute) -> list[Quality]:
+    """The qualities that colors may have, coarsest first."""
+    if kept_whole(colors):
+        return [Quality("exact")]
+    shares = [25.0 * 0.5 ** (k / 2) for k in range(15)]
+    return [*(Quality("share", share) for share in shares), Quality("exact")]
 
 
 def complete(sender: Sent, bare: Draft, most: float = math.inf) -> tuple[Sent, Draft]:
@@ -328,14 +344,23 @@ def complete(sender: Sent, bare: Draft, most: float = math.inf) -> tuple[Sent, D
     computed = spared.carried[number]
     if not sender.computes_near_normals(bare.decoded, computed):
         return sender, draft
-    metric = sender.measures.look if most < math.inf else None
-    if (
-        metric is not None
-        and max(metric.shaded(bare.decoded, computed.normals(bare.decoded))) > most
-    ):
+    if most < math.inf and not _look_fits(sender.measures, bare.decoded, computed, most):
         return sender, draft
     smaller = spared.completed(bare)
-    return (spared, smaller) if smaller.size < draft.size else (sender, draft)
+    if smaller.size < draft.size:
+        return spared, smaller
+    return sender, draft
+
+
+def _look_fits(
+    measures: Measures, decoded: Positions, computed: PreparedAttribute, most: float
+) -> bool:
+    """Whether decoded positions with computed normals look at most so far off, if anything is seen."""
+    metric = measures.look
+    if metric is None:
+        return True
+    shaded = metric.shaded(decoded, computed.normals(decoded))
+    return max(shaded) <= most
 
 
 def _shaded(sender: Sent, contract: Contract) -> tuple[Sent, Draft]:
@@ -348,35 +373,33 @@ def _shaded(sender: Sent, contract: Contract) -> tuple[Sent, Draft]:
     def share_of_look(carried: tuple[PreparedAttribute, ...], positions: Positions) -> float:
         return max(metric.shaded(positions, carried[free].normals(positions))) / most
 
-    finer = [
-        *(Quality("bits", bits) for bits in range(LEAST_NORMAL_BITS, MOST_NORMAL_BITS + 1)),
-        Quality("exact"),
-    ]
+    bit_counts = range(LEAST_NORMAL_BITS, MOST_NORMAL_BITS + 1)
+    finer = [*(Quality("bits", bits) for bits in bit_counts), Quality("exact")]
 
     def enough(at: int) -> bool:
         return share_of_look(sender.carry_with(free, finer[at]), decoded) <= 1.0
 
-    cheaper = sender.but(
-        carried=sender.carry_with(free, finer[bisect_left(range(len(finer) - 1), True, key=enough)])
-    )
-    pair = cheaper, cheaper.completed(bare)
+    coarsest = finer[bisect_left(range(len(finer) - 1), True, key=enough)]
+    cheaper = sender.but(carried=sender.carry_with(free, coarsest))
+    draft = cheaper.completed(bare)
     recomputed = sender.but(carried=sender.carry_with(free, Quality("recompute")))
-    if (
-        metric.against_faces
-        or share_of_look(recomputed.carried, sender.prepared.mesh.positions) > 1.0 - SLACK
-    ):
-        return pair
+    if metric.against_faces:
+        return cheaper, draft
+    if share_of_look(recomputed.carried, sender.prepared.mesh.positions) > 1.0 - SLACK:
+        return cheaper, draft
 
     def worst_look(positions: Positions) -> float:
-        return max(
-            sender.measures.painted(positions), most * share_of_look(recomputed.carried, positions)
-        )
+        shaded = most * share_of_look(recomputed.carried, positions)
+        return max(sender.measures.painted(positions), shaded)
 
     recomputed = recomputed.but(measures=sender.measures.painting(worst_look))
-    with suppress(TargetError):
+    try:
         smaller = recomputed.completed(recomputed.search.smallest(contract))
-        return (recomputed, smaller) if smaller.size < pair[1].size else pair
-    return pair
+    except TargetError:  # computed normals are too far off
+        return cheaper, draft
+    if smaller.size < draft.size:
+        return recomputed, smaller
+    return cheaper, draft
 
 
 def kept_whole(colors: Attribute) -> bool:

@@ -19,7 +19,7 @@ from bsm.codec.static.preamble_encoding import Prepared
 from bsm.codec.static.targets import TRIES
 from bsm.codec.static.units import single
 from bsm.codec.static.ways.in_blocks import InBlocks, RefinementBase, refine_blocks
-from bsm.codec.static.ways.in_cells import MOST_STEPS, SPREADS, InCells, LeveledCells
+from bsm.codec.static.ways.in_cells import MOST_STEPS, SPREADS, InCells, LeveledCells, Spread
 
 BROADEST = 0.14
 """Columns of a dictionary over the rows of a block: wider ones cost decoders more time than their bytes are worth."""
@@ -48,9 +48,8 @@ class OnCells:
     def below(self, step: float) -> RefinementBase:
         """Return the blocks for levels of about a step."""
         layer = Layer(single(step), RATIO)
-        many = step > 2.0 * SEEN * self._measures.shaper.mean_edge  # most levels are 0
-        spreads = SPREADS if many else SPREADS[:1]
-        within = self._measures.progress.within(TIME_OF_ALL if many else TIME)
+        spreads, share_of_time = self._spreads(step)
+        within = self._measures.progress.within(share_of_time)
         smoothings = len({spread.smoothing for spread in spreads})
         done, total = 0, MOST_STEPS * len(spreads) + (PLACING + COUPLING) * smoothings
         best: tuple[InCells, LeveledCells] | None = None
@@ -80,6 +79,12 @@ class OnCells:
         assert best is not None  # each spread has at least one
         in_cells, cells = best
         return in_cells.base(in_cells.settled(cells))
+
+    def _spreads(self, step: float) -> tuple[tuple[Spread, ...], float]:
+        """Return the spreads to try for levels of about a step, and the share of the remaining time they take."""
+        if step > 2.0 * SEEN * self._measures.shaper.mean_edge:  # most levels are 0
+            return SPREADS, TIME_OF_ALL
+        return SPREADS[:1], TIME
 
 
 class OnVertices:
@@ -123,12 +128,13 @@ class Plain:
         out = squares_of(base.positions - base.prepared.positions) > reaches**2
         if not out.any():
             return Trial(step, base.positions, lambda: base.draft)
-        layer = Layer(single(max(float(reaches[out].min()), LEAST)), 1.0)
-        levels = np.where(out[:, None], np.rint(base.offsets / layer.step), 0.0).astype(np.int32)
+        least_reach = float(reaches[out].min())
+        layer = Layer(single(max(least_reach, LEAST)), 1.0)
+        nearest = np.rint(base.offsets / layer.step)
+        levels = np.where(out[:, None], nearest, 0.0).astype(np.int32)
         moved = base.moved(layer, levels, base.known_steps(layer, levels))
-        return Trial(
-            step, moved, partial(refine_blocks, base.prepared, base.draft, layer, levels, moved)
-        )
+        code = partial(refine_blocks, base.prepared, base.draft, layer, levels, moved)
+        return Trial(step, moved, code)
 
     def mended(self, trial: Trial) -> Trial | None:
         """Return None: no look is asked for."""
@@ -147,16 +153,15 @@ class Refined:
         settled: bool = True,
         ratio: float = RATIO,
     ) -> None:
-        self.name, self._prepared, self._bounds, self._settled, self.ratio = (
-            name,
-            prepared,
-            bounds,
-            settled,
-            ratio,
-        )
+        self.name = name
+        self._prepared = prepared
+        self._bounds = bounds
+        self._settled = settled
+        self.ratio = ratio
         # Half a diagonal of steps is within the least reach, so that all vertices can be.
         self._diagonal = 2.0 * float(bounds.reaches.min())
-        self.least, self.most = LEAST, max(min(COARSEST, self._diagonal / math.sqrt(3.0)), LEAST)
+        self.least = LEAST
+        self.most = max(min(COARSEST, self._diagonal / math.sqrt(3.0)), LEAST)
         self._below = lru_cache(2)(blocks.below)
 
     @cached_property
@@ -172,23 +177,25 @@ class Refined:
     def estimate(self, rival: float) -> Estimate:
         """Return about the bytes of a trial at the first step: from the blocks below it, unless the mesh is so rough
         that these would be coded in vain."""
-        graph, positions = self._prepared.graph, self._prepared.positions
-        degrees = np.diff(graph.offsets)
-        sums = [
-            np.add.reduceat(column[graph.neighbors], graph.offsets[:-1]) for column in positions.T
-        ]
-        bends = squares_of(positions - np.column_stack(sums) / degrees[:, None]).mean()
-        rough = rival * SMOOTH * (math.sqrt(float(bends)) / self.first) ** ROUGHER
-        saving = BYTES * graph.size
+        roughness = self._bend() / self.first
+        rough = rival * SMOOTH * roughness**ROUGHER
+        saving = BYTES * self._prepared.graph.size
         if rough > VAIN * rival:
             return Estimate(rough, DOUBT, saving)
         base = self._base(self.first)
-        size, finer = (
-            base.about(Layer(single(step), self.ratio))
-            for step in (self.first, self.first / math.e)
-        )
+        size = base.about(Layer(single(self.first), self.ratio))
+        finer = base.about(Layer(single(self.first / math.e), self.ratio))
         estimate = (size + len(self._prepared.connectivity.data)) / CODED
         return Estimate(estimate, DOUBT, min(saving, (finer - size) / CODED))
+
+    def _bend(self) -> float:
+        """How far vertices are from the mean of their neighbors, as a root mean square."""
+        graph, positions = self._prepared.graph, self._prepared.positions
+        degrees = np.diff(graph.offsets)
+        starts = graph.offsets[:-1]
+        sums = [np.add.reduceat(column[graph.neighbors], starts) for column in positions.T]
+        bends = positions - np.column_stack(sums) / degrees[:, None]
+        return math.sqrt(float(squares_of(bends).mean()))
 
     def at(self, step: float) -> Trial:
         """Return the trial of a step."""
@@ -211,9 +218,8 @@ class Refined:
         for _ in range(UNFOLDED):
             positions = base.moved(layer, levels, steps)
             directions = base.directions(steps).reshape(-1, 9)
-            unfolded = self._bounds.measures.shaper.unfold(
-                positions, levels, directions, self._near(steps)
-            )
+            shaper, reach = self._bounds.measures.shaper, self._near(steps)
+            unfolded = shaper.unfold(positions, levels, directions, reach)
             if unfolded is None:
                 break
             levels, steps = unfolded, base.known_steps(layer, unfolded)
@@ -228,22 +234,24 @@ class Refined:
 
     def _near(self, steps: Matrix) -> Matrix:
         """How far vertices may be brought from their places by steps, shape (n, 3)."""
-        return np.asarray(
-            np.minimum(self._bounds.reaches, SPIKE * np.maximum(steps[:, 0], steps[:, 1]))
-        )
+        widest = np.maximum(steps[:, 0], steps[:, 1])
+        return np.asarray(np.minimum(self._bounds.reaches, SPIKE * widest))
 
     def _evened(self, step: float, base: RefinementBase) -> tuple[Layer, Levels, Matrix]:
         """Levels that are worth their bits; and their known steps."""
         reaches = self._bounds.reaches
         room = (self._diagonal / step) ** 2 - 1.0
-        layer = Layer(single(step), min(max(math.sqrt(max(room, 0.0) / 2.0), 1.0), self.ratio))
-        steps, expected = base.expected_steps(layer), partial(base.known_steps, layer)
+        widest_ratio = math.sqrt(max(room, 0.0) / 2.0)
+        layer = Layer(single(step), min(max(widest_ratio, 1.0), self.ratio))
+        steps = base.expected_steps(layer)
+        expected = partial(base.known_steps, layer)
         farthest = self._near(steps)
         levels = self._settler.levels(
             base.offsets, base.frames, steps, expected, PULLED, farthest, self.ratio
         )
         levels, known_steps = base.within(reaches, layer, levels)
-        if len((gaps := self._bounds.gaps).ends):
+        gaps = self._bounds.gaps
+        if len(gaps.ends):
             moved = base.moved(layer, levels, known_steps) - self._prepared.positions
             levels, known_steps = base.within(gaps.kept(reaches, moved), layer, levels)
         return layer, levels, known_steps
@@ -254,7 +262,8 @@ class Refined:
         """These levels, but the nearest ones at edges that fold over."""
         shaper = self._bounds.measures.shaper
         for _ in range(TRIES):  # heights that are mended change steps of others
-            if not len(wrong := shaper.over(base.moved(layer, levels, steps))):
+            wrong = shaper.over(base.moved(layer, levels, steps))
+            if not len(wrong):
                 break
             levels = levels.copy()
             levels[wrong] = np.rint(base.offsets[wrong] / steps[wrong])
@@ -263,13 +272,15 @@ class Refined:
 
     def _base(self, step: float) -> RefinementBase:
         """The blocks below levels of about a step, which are the same for steps that are near the first one."""
-        return self._below(self.first * APART ** round(math.log(step / self.first, APART)))
+        rung = round(math.log(step / self.first, APART))
+        return self._below(self.first * APART**rung)
 
     def _shaped(self, base: RefinementBase, layer: Layer) -> Levels:
         """Levels that bend faces least: heights first, for the steps of others follow from these."""
         shaper = self._bounds.measures.shaper
         aim = layer.step / shaper.mean_edge, float(self._bounds.reaches.max())
-        heights = shaper.levels(base.positions, *base.best_levels(base.expected_steps(layer)), *aim)
+        expected = base.best_levels(base.expected_steps(layer))
+        heights = shaper.levels(base.positions, *expected, *aim)
         heights_wanted, directions = base.best_levels(base.known_steps(layer, heights))
         heights_wanted[:, 0] = heights[:, 0]
         return shaper.levels(base.positions, heights_wanted, directions, *aim)

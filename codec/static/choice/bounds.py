@@ -57,7 +57,10 @@ class Measures:
         drawn: LookMetric | None = None,
     ) -> None:
         self.prepared = prepared
-        self.original = prepared.reference.alike if alike else prepared.reference.by_area
+        if alike:
+            self.original = prepared.reference.alike
+        else:
+            self.original = prepared.reference.by_area
         self.shaper = Shaper(self.original, prepared.graph)
         self.reaches = lru_cache(1)(partial(reaches, prepared))
         self.gaps = lru_cache(1)(partial(gaps, prepared))
@@ -89,7 +92,8 @@ class Measures:
         """None: nothing of the mesh can be seen."""
         normals = []
         if self.normals is not None:
-            normals.append(Attribute("normal", self.normals.reshape(-1, 3), "corner", "normal"))
+            values = self.normals.reshape(-1, 3)
+            normals.append(Attribute("normal", values, "corner", "normal"))
         # As given and as decoded, to the last bit: in BSM units, rounding may show other shades.
         mesh = TriangleMesh(self.prepared.mesh.positions, self.prepared.mesh.faces, tuple(normals))
         try:
@@ -111,11 +115,8 @@ def count_flat(positions: Matrix, faces: Faces) -> int:
     small = areas <= FLAT * longest
     corners = positions[faces[small]]
     sides = corners - np.roll(corners, 1, axis=1)
-    return int(
-        np.count_nonzero(
-            areas[small] <= FLAT * np.square(sides).sum(axis=2).max(axis=1, initial=0.0)
-        )
-    )
+    longest_squares = np.square(sides).sum(axis=2).max(axis=1, initial=0.0)
+    return int(np.count_nonzero(areas[small] <= FLAT * longest_squares))
 
 
 def trial_of(prepared: Prepared, draft: Draft) -> Trial:
@@ -137,62 +138,65 @@ class Bounds:
 
     def excess(self, candidate: Trial) -> float:
         """The logarithm of the largest share of a bound that depends on the step."""
-        farther, angle, visual, look = self._shares(candidate)
-        shares = (
-            (angle, visual, look)
-            if candidate.settled and farther <= 1.0
-            else (farther, angle, visual, look)
-        )
+        farther, *shares = self._shares(candidate)
+        if not (candidate.settled and farther <= 1.0):
+            shares.insert(0, farther)
         self.measures.progress.by()
         return math.log(max(*shares, LEAST))
 
     def is_faulty(self, trial: Trial) -> bool:
         """Whether more faces lose their areas, or more edges fold, than may."""
         shaper = self.measures.shaper
+        if self.loses_faces(trial.positions):
+            return True
+        folds = shaper.more_folds(trial.positions)
+        if trial.settled:
+            return folds > shaper.most_folds
         # On grids, slivers of parts fold where nothing shows.
-        most = (
-            shaper.most_folds
-            if trial.settled
-            else max(SLIVERS * len(self.measures.prepared.mesh.faces), 1.0)
-        )
-        return self.loses_faces(trial.positions) or shaper.more_folds(trial.positions) > most
+        return folds > max(SLIVERS * len(self.measures.prepared.mesh.faces), 1.0)
 
     def loses_faces(self, positions: Matrix) -> bool:
         """Whether more faces lose their areas than may: up to a look of 0.5 none, up to 1 one in 200."""
         if self.contract.look > 1.0:
             return False
-        flat = self.measures.flat_faces(positions)
-        most = (
-            0
-            if self.contract.look <= NO_FACE_LOST
-            else len(self.measures.prepared.mesh.faces) // FEW_LOST
-        )
-        return flat - self.measures.flat_before > most
+        most = 0
+        if self.contract.look > NO_FACE_LOST:
+            most = len(self.measures.prepared.mesh.faces) // FEW_LOST
+        return self.measures.flat_faces(positions) - self.measures.flat_before > most
 
     @property
     def metric(self) -> LookMetric | None:
         """None: no look is asked for, or nothing can be seen."""
-        return None if self.contract.look == math.inf else self.measures.look
+        if self.contract.look == math.inf:
+            return None
+        return self.measures.look
 
     def keeps(self, candidate: Trial, look: float | None = None) -> bool:
         """Whether all bounds are kept; `look`, where it is known otherwise."""
         return max(self._shares(candidate, look)) <= 1.0
 
+    def broken_by(self, candidate: Trial, look: float | None = None) -> str:
+        """Return what the best positions that were seen break, in words; empty where a trial keeps all bounds."""
+        if self.keeps(candidate, look):
+            return ""
+        return self.had
+
     def binding(self, candidate: Trial, look: float | None = None) -> str:
         """Return the bound that keeps a stream from being smaller; "step" where wider ones break one."""
         shares = dict(zip(BOUNDS, self._shares(candidate, look), strict=True))
         name = max(shares, key=lambda name: shares[name])
-        return name if shares[name] > 1.0 - 4.0 * SLACK else "step"
+        if shares[name] > 1.0 - 4.0 * SLACK:
+            return name
+        return "step"
 
     def quality(self, candidate: Trial) -> float:
         """How far off positions are where the nearest ones are wanted, as a logarithm."""
-        metric, angle = self.measures.look, self.measures.original.angle
-        return math.log(
-            max(
-                metric.distance(self._decoded(candidate)) if metric else angle(candidate.positions),
-                LEAST,
-            )
-        )
+        metric = self.measures.look
+        if metric:
+            error = metric.distance(self._decoded(candidate))
+        else:
+            error = self.measures.original.angle(candidate.positions)
+        return math.log(max(error, LEAST))
 
     @cached_property
     def first_step(self) -> float:
@@ -205,7 +209,8 @@ class Bounds:
                 return widest
         step = widest
         for _ in range(3):  # of errors, or of their squares
-            step /= math.sqrt(max(*self._measured(np.rint(positions / step) * step), LEAST))
+            shares = self._measured(np.rint(positions / step) * step)
+            step /= math.sqrt(max(*shares, LEAST))
         return min(step, widest)
 
     @cached_property
@@ -214,10 +219,9 @@ class Bounds:
         step, metric = min(SEEN * self.measures.shaper.mean_edge, COARSEST), self.metric
         if metric is None:
             return step
+        prepared = self.measures.prepared
         for _ in range(2):
-            placed = self.measures.prepared.units.back(
-                np.rint(self.measures.prepared.positions / step) * step
-            )
+            placed = prepared.units.back(np.rint(prepared.positions / step) * step)
             wider = self._aim / max(metric.glance(placed), LEAST)
             step = min(step * min(max(wider, 0.1), 10.0), COARSEST)
             if 0.5 < wider < 2.0:
@@ -228,7 +232,9 @@ class Bounds:
     def _aim(self) -> float:
         """From one step for all looks, so that a stricter one begins with a finer step; but a mesh that stands for
         another one looks different without any step."""
-        return self.contract.look if self.measures.drawn else 1.0
+        if self.measures.drawn:
+            return self.contract.look
+        return 1.0
 
     @property
     def had(self) -> str:
@@ -264,36 +270,35 @@ class Bounds:
         off = positions - measures.prepared.positions
         shares = np.sqrt(squares_of(off)) / np.maximum(self.reaches, np.finfo(np.float64).tiny)
         farther = float(np.append(shares, self.gaps.closed(off)).max(initial=0.0))
-        angle = (
-            measures.original.angle(positions) / contract.angle
-            if contract.angle < ANY_ANGLE
-            else 0.0
-        )
-        visual = (
-            measures.prepared.reference.nmsve(positions) / contract.visual
-            if contract.visual < math.inf
-            else 0.0
-        )
+        angle = visual = 0.0
+        if contract.angle < ANY_ANGLE:
+            angle = measures.original.angle(positions) / contract.angle
+        if contract.visual < math.inf:
+            visual = measures.prepared.reference.nmsve(positions) / contract.visual
         return farther, angle, visual
 
     def _decoded(self, candidate: Trial) -> Positions:
         """Positions as a decoder has them."""
-        decoded, back = candidate.decoded, self.measures.prepared.units.back
-        return back(candidate.positions) if decoded is None else decoded
+        if candidate.decoded is not None:
+            return candidate.decoded
+        return self.measures.prepared.units.back(candidate.positions)
 
 
 def reaches(prepared: Prepared, contract: Contract) -> Matrix:
     """How far each vertex may come to lie from its place, in BSM units, shape (n,)."""
     diagonal, unit, part = prepared.mesh.diagonal, prepared.units.scale, prepared.components
-    farthest, by_part = contract.reach(diagonal, unit), contract.by_part * diagonal / unit
+    farthest = contract.reach(diagonal, unit)
+    by_part = contract.by_part * diagonal / unit
     if not by_part < math.inf:
         return np.full(len(part), farthest)
-    order, starts = np.argsort(part, kind="stable"), np.cumsum([0, *np.bincount(part)[:-1]])
-    low, high = (
-        end.reduceat(prepared.positions[order], starts) for end in (np.minimum, np.maximum)
-    )
+    order = np.argsort(part, kind="stable")
+    starts = np.cumsum([0, *np.bincount(part)[:-1]])
+    positions = prepared.positions[order]
+    low = np.minimum.reduceat(positions, starts)
+    high = np.maximum.reduceat(positions, starts)
     diagonals = np.sqrt(squares_of(high - low)) * unit / (diagonal or 1.0)
-    return np.asarray(np.minimum(farthest, by_part * diagonals.clip(FINEST_PART, 1.0)[part]))
+    shares = diagonals.clip(FINEST_PART, 1.0)[part]
+    return np.asarray(np.minimum(farthest, by_part * shares))
 
 
 class Gaps(NamedTuple):
@@ -309,48 +314,53 @@ class Gaps(NamedTuple):
 
     def kept(self, reach: Matrix, moved: Matrix | None = None) -> Matrix:
         """How far vertices may be, of `reach`, so that no gap closes, or none of those that `moved` would close."""
-        wrong = np.s_[:] if moved is None else self.closed(moved) > 1.0
-        half, reach = (
-            (1.0 - FINEST_PART) / 2.0 / np.sqrt(squares_of(self.closing[wrong, 0])),
-            reach.copy(),
-        )
-        np.minimum.at(reach, self.ends[wrong], half[:, None])
+        ends, directions = self.ends, self.closing[:, 0]
+        if moved is not None:
+            wrong = self.closed(moved) > 1.0
+            ends, directions = ends[wrong], directions[wrong]
+        half = (1.0 - FINEST_PART) / 2.0 / np.sqrt(squares_of(directions))
+        reach = reach.copy()
+        np.minimum.at(reach, ends, half[:, None])
         return reach
 
 
 def gaps(prepared: Prepared, contract: Contract) -> Gaps:
     """Where parts are near each other, but do not touch."""
-    part, positions, faces = prepared.components, prepared.positions, prepared.mesh.faces
-    reach, count = (
-        2.0 * contract.by_part * prepared.mesh.diagonal / prepared.units.scale,
-        int(part.max(initial=0)) + 1,
-    )
+    part, positions = prepared.components, prepared.positions
+    reach = 2.0 * contract.by_part * prepared.mesh.diagonal / prepared.units.scale
+    count = int(part.max(initial=0)) + 1
     if not 1 < count <= MOST_PARTS or not reach < math.inf:
         return Gaps(np.empty((0, 4), np.int64), np.empty((0, 4, 3)))
+    closest = _closest_points(prepared, reach, count)
+    ends = closest[:, :4].astype(np.int64)
+    weights = np.insert(closest[:, 4:], 0, -1.0, axis=1)[:, :, None]
+    across = -(weights * positions[ends]).sum(axis=1)
+    squares, parts = squares_of(across), part[ends[:, :2]]
+    nearest = np.full(count, np.inf)
+    np.minimum.at(nearest, parts, np.sqrt(squares)[:, None])
+    touching = FINEST_PART**2 * reach  # none of such parts is before the other
+    free = (squares < reach**2) & (nearest[parts].max(axis=1) >= touching)
+    closing = (weights * across[:, None])[free] / squares[free, None, None]
+    return Gaps(ends[free], closing)
+
+
+def _closest_points(prepared: Prepared, reach: float, count: int) -> Matrix:
+    """Vertices that may be within reach of another of `count` parts, with the nearest points of that: shape (k, 7), as
+    `nearest_points` has them after the vertex."""
+    part, positions, faces = prepared.components, prepared.positions, prepared.mesh.faces
     low, high = positions[faces].min(axis=1), positions[faces].max(axis=1)
-    rows, nearest = [np.empty((0, 7))], np.full(count, np.inf)
+    rows = [np.empty((0, 7))]
     for number in range(count):
         is_own = part[faces[:, 0]] == number
-        first, last = low[is_own].min(axis=0) - reach, high[is_own].max(axis=0) + reach
+        first = low[is_own].min(axis=0) - reach
+        last = high[is_own].max(axis=0) + reach
         is_close = ~is_own & (low <= last).all(axis=1) & (high >= first).all(axis=1)
-        if is_close.any():
-            first, last = low[is_close].min(axis=0) - reach, high[is_close].max(axis=0) + reach
-            mine = np.flatnonzero(
-                (part == number) & ((positions >= first) & (positions <= last)).all(axis=1)
-            )
-            rows.append(
-                np.column_stack(
-                    [mine, *nearest_points(positions[mine], positions, faces[is_close])]
-                )
-            )
-    closest = np.concatenate(rows)
-    ends, weights = (
-        closest[:, :4].astype(np.int64),
-        np.insert(closest[:, 4:], 0, -1.0, axis=1)[:, :, None],
-    )
-    across = -(weights * positions[ends]).sum(axis=1)
-    squares, of = squares_of(across), part[ends[:, :2]]
-    np.minimum.at(nearest, of, np.sqrt(squares)[:, None])
-    touching = FINEST_PART**2 * reach  # none of such parts is before the other
-    free = (squares < reach**2) & (nearest[of].max(axis=1) >= touching)
-    return Gaps(ends[free], (weights * across[:, None])[free] / squares[free, None, None])
+        if not is_close.any():
+            continue
+        first = low[is_close].min(axis=0) - reach
+        last = high[is_close].max(axis=0) + reach
+        is_within = ((positions >= first) & (positions <= last)).all(axis=1)
+        vertices = np.flatnonzero((part == number) & is_within)
+        points = nearest_points(positions[vertices], positions, faces[is_close])
+        rows.append(np.column_stack([vertices, *points]))
+    return np.concatenate(rows)

@@ -20,8 +20,10 @@ FINER = 0.5  # over the step of a grid: vertices that are not rounded are nearer
 
 def transforms_of(prepared: Prepared, grid: Raster) -> Levels:
     """The transforms of a mesh on a grid, shape (k, 8), as they are coded; sought once for like steps."""
-    (turns, shifts, _), origin = motions_of(prepared, grid.step, grid.turn), np.array(grid.origin)
-    return coded_transforms(turns, (turns @ origin + shifts - origin) / grid.step, grid.largest)
+    turns, shifts, _ = motions_of(prepared, grid.step, grid.turn)
+    origin = np.array(grid.origin)
+    shifts_in_cells = (turns @ origin + shifts - origin) / grid.step
+    return coded_transforms(turns, shifts_in_cells, grid.largest)
 
 
 def planes_of(positions: Matrix, faces: Faces) -> list[Matrix]:
@@ -33,14 +35,23 @@ def planes_of(positions: Matrix, faces: Faces) -> list[Matrix]:
         column = np.ascontiguousarray(positions[:, axis])
         values = column[begins]
         flat = np.flatnonzero(np.abs(column[ends] - values) <= 1e-6 * extent)
-        values, sides = values[flat], positions[ends[flat]] - positions[begins[flat]]
+        values = values[flat]
+        sides = positions[ends[flat]] - positions[begins[flat]]
         lengths = np.sqrt(squares_of(sides)) / extent
-        order = np.argsort(values)
-        starts = np.flatnonzero(np.diff(values[order], prepend=-np.inf) > 1e-6 * extent)
-        sums = np.add.reduceat(lengths[order], starts) if len(starts) else np.empty(0)
-        most = np.argsort(-sums, kind="stable")[:8]  # of axes with many, none fits well
-        planes.append(np.column_stack([values[order][starts[most]], sums[most]]))
+        planes.append(_longest_planes(values, lengths, 1e-6 * extent))
     return planes
+
+
+def _longest_planes(values: Matrix, lengths: Matrix, noise: float) -> Matrix:
+    """Places of planes on an axis, shape (k, 2), with the sums of lengths of edges there, most first."""
+    if not len(values):
+        return np.empty((0, 2))
+    order = np.argsort(values)
+    values = values[order]
+    starts = np.flatnonzero(np.diff(values, prepend=-np.inf) > noise)
+    sums = np.add.reduceat(lengths[order], starts)
+    most = np.argsort(-sums, kind="stable")[:8]  # of axes with many, none fits well
+    return np.column_stack([values[starts[most]], sums[most]])
 
 
 def lattice(
@@ -49,38 +60,16 @@ def lattice(
     """The step of single precision near a wanted one, and the origin, at most a cell lower, for which transforms take
     most places to places, those that exchange axes or turn them back, all at once; and for which planes are at places:
     where a long edge moves, a row of samples changes, and a picture shows it."""
-    turns, shifts, shares = motions_of(prepared, step, turn)
-    is_exact = (
-        np.abs(turns - np.rint(turns)).max(axis=(1, 2)) * extent_of(prepared.mesh.positions).max()
-        < step / 4.0
-    )
     nearness = np.linspace(-0.5, 0.5, 241)
-    steps = np.maximum(step * np.exp(SLACK * nearness), least).astype(np.float32).astype(np.float64)
-    origins, is_open = np.repeat(origin[None], len(steps), axis=0), np.ones(3, bool)
+    steps = np.maximum(step * np.exp(SLACK * nearness), least)
+    steps = steps.astype(np.float32).astype(np.float64)
+    origins = np.repeat(origin[None], len(steps), axis=0)
     score = -1e-6 * np.abs(nearness)
-    rigid = [
-        (np.rint(turns[k]), shifts[k], shares[k])
-        for k in np.argsort(-shares, kind="stable")
-        if is_exact[k]
-    ]
-    for turned, shift, _ in rigid:  # axes that it turns have its center at a place
-        back = np.eye(3) - turned
-        if (axes := back.any(axis=0)).any() and is_open[axes].all():
-            cells = (np.linalg.pinv(back) @ shift - origins) / steps[:, None]
-            origins[:, axes] -= ((np.ceil(cells - 1e-6) - cells) * steps[:, None])[:, axes]
-            is_open &= ~axes
-    for axis, (values, lengths) in enumerate(plane.T for plane in planes):
-        if not len(values):
-            continue
-        cells = (
-            values[:, None] - (values if is_open[axis] else origins[:, axis, None, None])
-        ) / steps[:, None, None]
-        # Where plane j is at a place.
-        off = np.einsum("i,sij->sj", lengths, np.abs(cells - np.rint(cells)))
-        score -= off.min(axis=1)
-        if is_open[axis]:
-            cells = (values[off.argmin(axis=1)] - origins[:, axis]) / steps
-            origins[:, axis] -= (np.ceil(cells - 1e-6) - cells) * steps
+    rigid = _exchanges_of_axes(prepared, step, turn)
+    is_open = _center(rigid, origins, steps)
+    for axis, plane in enumerate(planes):
+        if len(plane):
+            score -= _off_planes(plane, axis, origins, steps, is_open=bool(is_open[axis]))
     for turned, shift, share in rigid:
         cells = (shift - origins @ (np.eye(3) - turned).T) / steps[:, None]
         off = np.abs(cells - np.rint(cells)).max(axis=1)
@@ -88,6 +77,52 @@ def lattice(
         score += share * np.maximum(0.0, 1.0 - np.square(16.0 * off))
     best = int(score.argmax())
     return float(steps[best]), origins[best]
+
+
+Motion = tuple[Matrix, Matrix, float]
+"""A turn, shape (3, 3), a shift, shape (3,), and the share of vertices that both take to others."""
+
+
+def _exchanges_of_axes(prepared: Prepared, step: float, turn: Turn) -> list[Motion]:
+    """Motions that only exchange axes or turn them back, of most vertices first."""
+    turns, shifts, shares = motions_of(prepared, step, turn)
+    extent = extent_of(prepared.mesh.positions).max()
+    whole_turns = np.rint(turns)
+    is_exact = np.abs(turns - whole_turns).max(axis=(1, 2)) * extent < step / 4.0
+    order = np.argsort(-shares, kind="stable")
+    return [(whole_turns[k], shifts[k], shares[k]) for k in order if is_exact[k]]
+
+
+def _center(rigid: list[Motion], origins: Matrix, steps: Matrix) -> npt.NDArray[np.bool_]:
+    """Move origins, shape (k, 3), so that axes which motions turn have their centers at places; return which axes are
+    still open."""
+    is_open = np.ones(3, bool)
+    for turned, shift, _ in rigid:
+        back = np.eye(3) - turned
+        axes = back.any(axis=0)
+        if axes.any() and is_open[axes].all():
+            cells = (np.linalg.pinv(back) @ shift - origins) / steps[:, None]
+            moves = (np.ceil(cells - 1e-6) - cells) * steps[:, None]
+            origins[:, axes] -= moves[:, axes]
+            is_open &= ~axes
+    return is_open
+
+
+def _off_planes(
+    plane: Matrix, axis: int, origins: Matrix, steps: Matrix, *, is_open: bool
+) -> Matrix:
+    """How far the planes of an axis are from places, at each step; an open axis gets the origins at which that is
+    least."""
+    values, lengths = plane.T
+    starts = origins[:, axis, None, None]
+    if is_open:
+        starts = values  # where plane j is at a place
+    cells = (values[:, None] - starts) / steps[:, None, None]
+    off = np.einsum("i,sij->sj", lengths, np.abs(cells - np.rint(cells)))
+    if is_open:
+        cells = (values[off.argmin(axis=1)] - origins[:, axis]) / steps
+        origins[:, axis] -= (np.ceil(cells - 1e-6) - cells) * steps
+    return np.asarray(off.min(axis=1))
 
 
 def motions_of(prepared: Prepared, step: float, turn: Turn) -> tuple[Matrix, Matrix, Matrix]:
@@ -98,12 +133,13 @@ def motions_of(prepared: Prepared, step: float, turn: Turn) -> tuple[Matrix, Mat
     rung = first * 4.0 ** round(math.log(step / first, 4.0))
     if rung not in prepared.motions:
         cell = FINER * rung
-        prepared.motions[rung] = motions_between(
-            prepared.mesh.positions / cell, prepared.mesh.faces
-        )
-        prepared.motions[rung][:, 9:12] *= cell
+        motions = motions_between(prepared.mesh.positions / cell, prepared.mesh.faces)
+        motions[:, 9:12] *= cell
+        prepared.motions[rung] = motions
     turns, shifts, shares = np.split(prepared.motions[rung], [9, 12], axis=1)
-    axes = turned_by(np.eye(3), turn) if any(turn) else np.eye(3)
+    axes = np.eye(3)
+    if any(turn):
+        axes = turned_by(axes, turn)
     return axes @ turns.reshape(-1, 3, 3) @ axes.T, shifts @ axes.T, shares[:, 0]
 
 
@@ -112,16 +148,13 @@ def motions_between(positions: Matrix, faces: Faces) -> Matrix:
     count, motions = len(positions), np.empty((constant("MOST_TRANSFORMS"), 13))
     degrees = np.bincount(faces.reshape(-1), minlength=count).astype(np.int32)
     heads = np.empty(1 << max(count, len(faces), 2).bit_length(), np.int32)
-    links, covered, room = (
-        np.empty(count + len(faces), np.int32),
-        np.zeros(48 << 14, np.uint8),
-        np.zeros(1 << 18),
-    )
+    links = np.empty(count + len(faces), np.int32)
+    covered = np.zeros(48 << 14, np.uint8)
+    room = np.zeros(1 << 18)
     middle = (positions.min(axis=0) + positions.max(axis=0)) / 2.0
     centered = np.ascontiguousarray(positions - middle)
-    number = _kernels.find_motions(
-        centered, faces, degrees, WORTH, (heads, links, covered, room), motions
-    )
+    workspace = (heads, links, covered, room)
+    number = _kernels.find_motions(centered, faces, degrees, WORTH, workspace, motions)
     motions[:number, 9:12] += middle - motions[:number, :9].reshape(-1, 3, 3) @ middle
     return motions[:number]
 
@@ -129,19 +162,26 @@ def motions_between(positions: Matrix, faces: Faces) -> Matrix:
 def coded_transforms(turns: Matrix, shifts: Matrix, largest: npt.ArrayLike) -> Levels:
     """The numbers of transforms x -> turn x + shift of places on a grid, shape (k, 8), of turns, shape (k, 3, 3)."""
     span = np.asarray(largest, np.int64)
-    most, middle, moved = int(max(span.max(), 1)), span / 2.0, turns @ (span / 2.0) + shifts
+    most = int(max(span.max(), 1))
+    middle = span / 2.0
+    moved = turns @ middle + shifts
     source = np.abs(turns).argmax(axis=2)
     sign = np.sign(np.take_along_axis(turns, source[..., None], axis=2)[..., 0])
-    others = (np.abs(turns - np.eye(3)[source] * sign[..., None]) * span).max(axis=(1, 2)) >= 1.0
+    whole_turns = np.eye(3)[source] * sign[..., None]
+    others = (np.abs(turns - whole_turns) * span).max(axis=(1, 2)) >= 1.0
     others |= (np.sort(source, axis=1) != np.arange(3)).any(axis=1)
-    kind = 8 * (2 * source[:, 0] + ((source[:, 1] - source[:, 0]) % 3 == 2)) + (
-        sign < 0
-    ) @ np.array([1, 2, 4])
+    is_swapped = (source[:, 1] - source[:, 0]) % 3 == 2
+    mirrors = (sign < 0) @ np.array([1, 2, 4])
+    kind = 8 * (2 * source[:, 0] + is_swapped) + mirrors
     origins = np.rint(moved - sign * middle[source]) + np.where(sign > 0, span[source], 0)
-    rows, ends = np.column_stack([kind, np.zeros((len(turns), 4)), origins]), span + span[source]
+    rows = np.column_stack([kind, np.zeros((len(turns), 4)), origins])
+    ends = span + span[source]
     if others.any():
-        rows[others], ends[others] = _turned(turns[others], moved[others], middle, most), 24 * most
-    return np.asarray(rows[((rows[:, 5:] >= 0) & (rows[:, 5:] <= ends)).all(axis=1)], np.int32)
+        rows[others] = _turned(turns[others], moved[others], middle, most)
+        ends[others] = 24 * most
+    numbers = rows[:, 5:]
+    is_coded = ((numbers >= 0) & (numbers <= ends)).all(axis=1)
+    return np.asarray(rows[is_coded], np.int32)
 
 
 def _turned(turns: Matrix, moved: Matrix, middle: Matrix, most: int) -> Matrix:

@@ -90,21 +90,25 @@ def paying(prepared: Prepared, draft: Draft) -> Draft:
     places, header = draft.places, draft.header
     if places is None or not header.congruence:
         return draft
-    grid, transforms = (
-        grid_of(header),
-        transforms_of(prepared, grid_of(header))[: header.transforms],
-    )
+    grid = grid_of(header)
+    transforms = transforms_of(prepared, grid)[: header.transforms]
+
+    def code(pieces: list[Levels], *, whole: bool) -> Draft:
+        raster = replace(grid, transforms=np.concatenate(pieces), whole=whole)
+        return grid_draft(prepared, raster, places, draft.may_be_brief, decoded=draft.decoded)
+
     pieces = [part for part in np.array_split(transforms, 4) if len(part)]
-    for i in range(count := len(pieces), max(count - 3, 0), -1):
+    count = len(pieces)
+    if count:
+        split = code(pieces, whole=False)
+        if split.size < (1.0 - SLACK) * draft.size:
+            draft = split
+    for i in range(count - 1, max(count - 3, 0), -1):
         rest = pieces[:i] + pieces[i + 1 :]
-        grid = replace(
-            grid, transforms=np.concatenate(rest), whole=i < count and draft.header.whole
-        )
-        coded = grid_draft(prepared, grid, places, draft.may_be_brief, decoded=draft.decoded)
-        if coded.size < (1.0 - SLACK * (i == count)) * draft.size:
-            draft, pieces = coded, rest
-        elif i < count:
+        smaller = code(rest, whole=draft.header.whole)
+        if smaller.size >= draft.size:
             break  # the quarters before explain more vertices
+        draft, pieces = smaller, rest
     return draft
 
 
@@ -121,10 +125,8 @@ def rounded_to_cells(prepared: Prepared, cell: float, origin: tuple[float, float
 def exact(prepared: Prepared) -> Draft:
     """Every position, which is one of single precision, to the bit: a grid, and which float of its cell each is."""
     grid, places = _rounded(prepared)
-    grid, positions = (
-        replace(grid, exact=True),
-        prepared.mesh.positions.astype(np.float32).astype(np.float64),
-    )
+    grid = replace(grid, exact=True)
+    positions = prepared.mesh.positions.astype(np.float32).astype(np.float64)
     header = Header(**prepared.fields, **grid.fields)
     body = (*prepared.before_grid, *encode_grid(prepared.mesh.faces, grid, places, positions))
     return Draft(header, body, positions, places)
@@ -145,7 +147,8 @@ def _rounded(
 def made_on(positions: Matrix, within: float) -> float | None:
     """The step of the coarsest grid from the lower corner on that all positions are on, within so much or rounding."""
     extent = float(extent_of(positions).max())
-    noise = max(4.0 * float(np.spacing(np.float32(np.abs(positions).max()))), within) / extent
+    rounding = float(np.spacing(np.float32(np.abs(positions).max())))
+    noise = max(4.0 * rounding, within) / extent
     for sample in (positions[:: 1 + len(positions) // SAMPLE], positions):
         values = distinct((sample - sample.min(axis=0)) / extent)
         values = values[values > noise]
@@ -154,11 +157,13 @@ def made_on(positions: Matrix, within: float) -> float | None:
             lowest = values[: np.searchsorted(values, reach, side="right")]
             counts = np.rint(lowest / step)
             remainders = np.abs(lowest - counts * step)
-            if (remainders > step / 8.0).any():  # then the step divides that, too, as Euclid has it
-                step = float(remainders[remainders > step / 8.0].min())
+            large = remainders[remainders > step / 8.0]
+            if len(large):  # then the step divides that, too, as Euclid has it
+                step = float(large.min())
                 reach = max(step, float(values[0]))
             else:
-                step, reach = float(counts @ lowest / (counts @ counts)), 4.0 * reach
+                step = float(counts @ lowest / (counts @ counts))
+                reach *= 4.0
             if step < 8.0 * noise:
                 return None
         if not len(values) or (np.abs(values - np.rint(values / step) * step) > noise).any():
@@ -169,7 +174,8 @@ def made_on(positions: Matrix, within: float) -> float | None:
 def spacing_of(positions: Matrix, faces: Faces) -> float:
     """The spacing of rows and columns of a regular mesh, or what divides both, down to an eighth; 0: there is none."""
     sample, extent = faces[:: 1 + len(faces) // SAMPLE], extent_of(positions)
-    spans = np.abs(positions[sample] - positions[np.roll(sample, 1, axis=1)]).reshape(-1, 3)
+    sides = positions[sample] - positions[np.roll(sample, 1, axis=1)]
+    spans = np.abs(sides).reshape(-1, 3)
     noise, common = 1e-6 * float(extent.max()), 0.0
     for axis in range(3):
         along = np.sort(spans[spans[:, axis] > 4.0 * noise, axis])
@@ -181,11 +187,16 @@ def spacing_of(positions: Matrix, faces: Faces) -> float:
         off = np.abs(along / spacing - np.rint(along / spacing)) > 2.0 * SLACK
         # Without rows, seven in eight would be off.
         if off.mean() < 8.0 * SLACK and extent[axis] > 8.0 * spacing:
-            parts = max(spacing, common) / np.arange(1.0, 9.0)
-            spacings = (min(spacing, common) if common else spacing) / parts
-            fits = np.abs(spacings - np.rint(spacings)) < SLACK / 4.0
-            common = float(parts[fits.argmax()] if fits.any() else parts[0])
+            common = _common_spacing(spacing, common or spacing)
     return common
+
+
+def _common_spacing(spacing: float, other: float) -> float:
+    """Return what divides both spacings, down to an eighth of the wider one; that, where nothing does."""
+    parts = max(spacing, other) / np.arange(1.0, 9.0)
+    spacings = min(spacing, other) / parts
+    fits = np.abs(spacings - np.rint(spacings)) < SLACK / 4.0
+    return float(parts[fits.argmax()])  # the first one, where none fits
 
 
 class Frame:
@@ -195,25 +206,26 @@ class Frame:
         self, prepared: Prepared, bounds: Bounds, turn: Turn = UNTURNED, spacing: float = 0.0
     ) -> None:
         self.prepared, self.bounds, self.turn, self.spacing = prepared, bounds, turn, spacing
+        units = prepared.units
         axes = turned_by(prepared.mesh.positions, turn, back=True)
-        self.positions = prepared.units.into(axes) if any(turn) else prepared.positions
-        low = box_around(axes)[0]
+        self.positions = prepared.positions
+        if any(turn):
+            self.positions = units.into(axes)
+        low, _ = box_around(axes)
         if spacing:
-            around = np.exp(
-                2j * math.pi / spacing * (self.positions - prepared.units.into(low))
-            ).mean(axis=0)
-            low = low + np.angle(around) / (2.0 * math.pi) * spacing * prepared.units.scale
+            heights = self.positions - units.into(low)
+            around = np.exp(2j * math.pi / spacing * heights).mean(axis=0)
+            low = low + np.angle(around) / (2.0 * math.pi) * spacing * units.scale
+        self.hold: Callable[[float], float] = float
         narrow = low.astype(np.float32)
-        is_exact_enough = np.spacing(np.abs(narrow)).max() < 1e-6 * prepared.units.scale
-        self.hold: Callable[[float], float] = single if is_exact_enough else float
-        below = np.where(narrow > low, np.nextafter(narrow, np.float32(-np.inf)), narrow).astype(
-            np.float64
-        )
-        self._origin = below if is_exact_enough else low
-        cells = float((self.positions - prepared.units.into(self._origin)).max()) / (MOST_GRID - 4)
-        self.least = max(
-            cells, float(np.finfo(np.float32).smallest_subnormal) / prepared.units.scale
-        )
+        if np.spacing(np.abs(narrow)).max() < 1e-6 * units.scale:  # exact enough
+            self.hold = single
+            next_below = np.nextafter(narrow, np.float32(-np.inf))
+            low = np.where(narrow > low, next_below, narrow).astype(np.float64)
+        self._origin = low
+        extent = float((self.positions - units.into(self._origin)).max())
+        smallest = float(np.finfo(np.float32).smallest_subnormal)
+        self.least = max(extent / (MOST_GRID - 4), smallest / units.scale)
 
     @cached_property
     def first(self) -> float:
@@ -225,8 +237,10 @@ class Frame:
 
     def dividing(self, step: npt.ArrayLike) -> Matrix:
         """Return the widest step up to a wanted one that divides the spacing of rows, if there is one."""
-        parts = np.maximum(np.ceil(self.spacing / np.asarray(step) - 2.0 * SLACK), 1.0)
-        return np.asarray(self.spacing / parts if self.spacing else step)
+        if not self.spacing:
+            return np.asarray(step)
+        parts = np.ceil(self.spacing / np.asarray(step) - 2.0 * SLACK)
+        return np.asarray(self.spacing / np.maximum(parts, 1.0))
 
     @cached_property
     def planes(self) -> list[Matrix]:
@@ -237,24 +251,23 @@ class Frame:
     def motions(self) -> tuple[Matrix, Matrix, Matrix]:
         """Motions between congruent parts, as for the first step."""
         self._seek_motions()
-        return motions_of(
-            self.prepared, max(self.first, self.least) * self.prepared.units.scale, self.turn
-        )
+        return self._motions_at(self.first)
 
     def _seek_motions(self) -> None:
         if not self.prepared.motions:  # the same ladder for all looks
-            motions_of(
-                self.prepared,
-                max(self.bounds.usual_step, self.least) * self.prepared.units.scale,
-                self.turn,
-            )
+            self._motions_at(self.bounds.usual_step)
+
+    def _motions_at(self, step: float) -> tuple[Matrix, Matrix, Matrix]:
+        cell = max(step, self.least) * self.prepared.units.scale
+        return motions_of(self.prepared, cell, self.turn)
 
     @property
     def explained(self) -> float:
         """The share of vertices that may be images of others; 0: no parts are congruent."""
         if not may_repeat(self.prepared):
             return 0.0
-        return 1.0 - float(np.prod(1.0 - np.minimum(self.motions[2], 1.0)))
+        _, _, shares = self.motions
+        return 1.0 - float(np.prod(1.0 - np.minimum(shares, 1.0)))
 
     def cells(self, step: float, mirrored: bool) -> tuple[float, Matrix]:
         """Return the length of a cell near a step, and the origin, in the unit of the mesh."""
@@ -282,12 +295,11 @@ class Frame:
         moved = self.with_images
         grid, places = Gridded("grid", self).places(self.first)
         rounded_positions = self.prepared.units.into(grid.positions(places))
-        squares = [
-            squares_of(p - self.prepared.positions).sum()
-            for p in (moved.positions, rounded_positions)
-        ]
-        far = squares[0] > math.exp(2.0 * DOUBT) * squares[1]
-        return bool(far and moved.draft.size > 0.5 * self.light_size)
+        moved_error = squares_of(moved.positions - self.prepared.positions).sum()
+        rounded_error = squares_of(rounded_positions - self.prepared.positions).sum()
+        if moved_error <= math.exp(2.0 * DOUBT) * rounded_error:
+            return False
+        return moved.draft.size > 0.5 * self.light_size
 
 
 class Gridded:
@@ -308,13 +320,14 @@ class Gridded:
         only_step: float = 0.0,
     ) -> None:
         self.name, self.frame = name, frame
-        self._prepared, self._bounds, self._shaper = (
-            frame.prepared,
-            frame.bounds,
-            frame.bounds.measures.shaper,
-        )
-        self._worth, self._images, self._going, self._made = worth, images, going, only_step
-        self.least, self.most = (only_step, only_step) if only_step else (frame.least, COARSEST)
+        self._prepared = frame.prepared
+        self._bounds = frame.bounds
+        self._shaper = frame.bounds.measures.shaper
+        self._worth = worth
+        self._images, self._going = images, going
+        self._made = only_step
+        self.least = only_step or frame.least
+        self.most = only_step or COARSEST
 
     @property
     def first(self) -> float:
@@ -334,9 +347,9 @@ class Gridded:
     def light_size(self) -> int:
         """About the bytes at the first step without images, by a quick coder."""
         grid, places = self.places(self.first)
-        return grid_draft(
-            self._prepared, replace(grid, light=True), places, may_repeat(self._prepared)
-        ).size
+        light_grid = replace(grid, light=True)
+        draft = grid_draft(self._prepared, light_grid, places, may_repeat(self._prepared))
+        return draft.size
 
     def estimate(self, rival: float) -> Estimate:
         """Return about how many bytes a trial at the first step takes."""
@@ -372,9 +385,8 @@ class Gridded:
         width = float(self.frame.dividing(step))
         grid, places = self.places(width)
         if self._going:
-            return self._coded_trial(
-                width, grid, places, self._draft(grid, places, self._wanted(grid, places))
-            )
+            draft = self._draft(grid, places, self._wanted(grid, places))
+            return self._coded_trial(width, grid, places, draft)
         decoded = grid.positions(places)
         code = partial(self._draft, grid, places, decoded=decoded)
         return self._trial(width, grid, places, decoded, code)
@@ -390,7 +402,8 @@ class Gridded:
             if not targets[folded, 3].any():
                 break
             targets[folded, 3] = 0.0
-            trial = self._coded_trial(trial.step, grid, places, self._draft(grid, places, targets))
+            draft = self._draft(grid, places, targets)
+            trial = self._coded_trial(trial.step, grid, places, draft)
         return trial
 
     def _coded_trial(self, step: float, grid: Raster, places: Levels, draft: Draft) -> Trial:
@@ -415,20 +428,17 @@ class Gridded:
         cell, low = length / unit, self._prepared.units.into(origin)
         places = np.floor((frame.positions - low) / cell + 0.5).astype(np.int32)
         if self._worth:
-            worth, reach = (
-                self._worth * step / self._shaper.mean_edge,
-                float(self._bounds.reaches.min()),
-            )
-            places = self._shaper.places(places, low, cell, worth, min(reach, SPIKE * step))
+            worth = self._worth * step / self._shaper.mean_edge
+            reach = min(float(self._bounds.reaches.min()), SPIKE * step)
+            places = self._shaper.places(places, low, cell, worth, reach)
         # The coder decides where vertices go to images: it mends most folds.
         if self._bounds.metric is not None and (unfolded or not self._going):
             places = self._unfolded(places, low, cell)
         places = self._apart(places, low, cell)
         least = places.min(axis=0)  # some may be below the origin
         start = tuple(frame.hold(value) for value in origin + least * length)
-        grid = Raster(
-            start, length, tuple(int(value) for value in np.ptp(places, axis=0)), turn=frame.turn
-        )
+        largest_places = tuple(int(value) for value in np.ptp(places, axis=0))
+        grid = Raster(start, length, largest_places, turn=frame.turn)
         places = places - least
         # Pictures show faces without area; on coarse grids there are many.
         if self._bounds.metric is not None:
@@ -442,19 +452,24 @@ class Gridded:
         positions = turned_by(places * cell + low, turn)
         directions = turned_by(cell * np.eye(3), turn).reshape(1, 9)
         unfolded = self._shaper.unfold(positions, places, directions, reaches)
-        return places if unfolded is None else unfolded
+        if unfolded is None:
+            return places
+        return unfolded
 
     def _apart(self, places: Levels, low: Matrix, cell: float) -> Levels:
         """Return places from `low` on; vertices that would close a gap between parts move away, a cell or a few."""
         gaps, turn = self._bounds.gaps, self.frame.turn
+        if not len(gaps.ends):
+            return places
         toward = turned_by(gaps.closing[:, 0], turn, back=True)
         away = -np.rint(toward / np.abs(toward).max(axis=1, keepdims=True)).astype(np.int32)
-        for first in (1, 0, 0) if len(away) else ():
+        for attempt in range(3):
             moved = turned_by(places * cell + low - self.frame.positions, turn)
-            closed = gaps.closed(moved) > 1.0
-            if not closed.any():
+            wrong = gaps.closed(moved) > 1.0
+            if not wrong.any():
                 break
-            wrong = closed & (gaps.ends[:, 0] >= first * gaps.ends[:, 1])  # at first, of one part
+            if attempt == 0:  # at first, of one part
+                wrong &= gaps.ends[:, 0] >= gaps.ends[:, 1]
             places[gaps.ends[wrong, 0]] += away[wrong]
         return places
 
@@ -477,11 +492,10 @@ class Gridded:
 
     def _wanted(self, grid: Raster, places: Levels) -> Matrix:
         """Return where each vertex would be, in cells, and the square of how far off it may be, shape (n, 4)."""
-        cell, low = (
-            grid.step / self._prepared.units.scale,
-            self._prepared.units.into(np.array(grid.origin)),
-        )
-        targets, gaps = (self.frame.positions - low) / cell, self._bounds.gaps
+        units, gaps = self._prepared.units, self._bounds.gaps
+        cell = grid.step / units.scale
+        low = units.into(np.array(grid.origin))
+        targets = (self.frame.positions - low) / cell
         reach = np.minimum(gaps.kept(self._bounds.reaches) / cell, SPIKE)
         # Who is past the middle of a gap leaves no room in it: there, all stay where they are.
         past = squares_of(places - targets) > np.square(reach)
@@ -510,8 +524,11 @@ def best_frame(prepared: Prepared, bounds: Bounds) -> Frame:
     if not any(turn):
         return usual
     turned = Frame(prepared, bounds, turn)
-    sizes = [Gridded("grid", frame).at(usual.first).final.size for frame in (usual, turned)]
-    return turned if sizes[1] < (1.0 - SLACK) * sizes[0] else usual
+    usual_size = Gridded("grid", usual).at(usual.first).final.size
+    turned_size = Gridded("grid", turned).at(usual.first).final.size
+    if turned_size < (1.0 - SLACK) * usual_size:
+        return turned
+    return usual
 
 
 def regular_frame(frame: Frame) -> Frame | None:

@@ -76,9 +76,8 @@ class Law:
         if self.count:
             centered = places[1:] - places[1:].mean()
             trust_in_slope = self._luck * self._trust_in_slope
-            slope += (
-                centered @ (values[1:] - slope * centered) / (centered @ centered + trust_in_slope)
-            )
+            deviations = values[1:] - slope * centered
+            slope += centered @ deviations / (centered @ centered + trust_in_slope)
         weights = 1.0 / (doubts**2 + self._luck + slope_doubt * distances**2)
         total = weights.sum(axis=1)
         self.mean: Matrix = (weights * (values + slope * distances)).sum(axis=1) / total
@@ -96,16 +95,10 @@ class Prospect:
     def __init__(self, way: Way, estimate: Estimate, rise: float, luck: float) -> None:
         self.way, self.estimate, self.steps = way, estimate, way.ladder
         self.first = self.index_of(way.first)
-        place, slope = float(self.steps[self.first]), -estimate.saving / estimate.size
-        self.sizes = Law(
-            self.steps,
-            place,
-            math.log(estimate.size),
-            estimate.doubt,
-            slope,
-            SLACK,
-            estimate.slope_doubt,
-        )
+        place = float(self.steps[self.first])
+        guess = math.log(estimate.size), estimate.doubt
+        slope = -estimate.saving / estimate.size
+        self.sizes = Law(self.steps, place, *guess, slope, SLACK, estimate.slope_doubt)
         self.errors = Law(self.steps, place, 0.0, DOUBT, rise, luck, DOUBT)
         self.states = np.full(len(self.steps), UNCODED)
         self.coded: dict[int, Trial] = {}
@@ -145,14 +138,17 @@ class Prospect:
         safest = int(distance.argmin())
         if least == math.inf:  # until a bound is kept, nothing else counts
             index = min(self.coded, key=lambda index: abs(index - safest), default=safest)
-            untried = 0.0 if errors.count else UNTRIED
-            return untried - float(self.sizes.mean[index]), index
+            gain = -float(self.sizes.mean[index])
+            if not errors.count:
+                gain += UNTRIED
+            return gain, index
         chance = np.exp(-np.logaddexp(0.0, errors.mean / errors.spread))
         paid = least - price / np.maximum(chance, LEAST)
-        savings = self.sizes.spread * np.logaddexp(
-            0.0, (paid - self.sizes.mean) / self.sizes.spread
-        )
+        sizes = self.sizes
+        savings = sizes.spread * np.logaddexp(0.0, (paid - sizes.mean) / sizes.spread)
         gains = chance * savings - price * (self.states == UNCODED)
         gains[closed] = -math.inf
         best = int(gains.argmax())
-        return float(gains[best]), best if self.sizes.count else safest
+        if not self.sizes.count:
+            return float(gains[best]), safest
+        return float(gains[best]), best

@@ -12,6 +12,7 @@ from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import replace
 from functools import partial
+from operator import itemgetter
 
 import numpy as np
 
@@ -53,9 +54,13 @@ class Search:
         self.size = size
         self.additions = additions  # about the bytes of attributes and metadata
         self.trace = trace
-        price = (QUICK if options.effort == "quick" else PRICE) * self.prepared.graph.size**0.25
-        # The best effort first does all that the normal one does.
-        self._prices = [price, price / 8.0] if options.effort == "best" else [price]
+        share = PRICE
+        if options.effort == "quick":
+            share = QUICK
+        price = share * self.prepared.graph.size**0.25
+        self._prices = [price]
+        if options.effort == "best":  # first does all that the normal effort does
+            self._prices.append(price / 8.0)
 
     def smallest(self, contract: Contract) -> Draft:
         """Return the smallest stream that keeps a contract; raise `TargetError` if none does."""
@@ -63,33 +68,39 @@ class Search:
             return rounded(self.prepared, 1)  # a point
         bounds = Bounds(self._measures, contract)
         trial = self._smallest_trial(bounds)
-        return self._finest(bounds) if trial is None else trial.final
+        if trial is None:
+            return self._finest(bounds)
+        return trial.final
 
     def best(self, contract: Contract | None, most: float) -> Draft | None:
         """Return the best stream of at most `most` bytes that keeps a contract, or None."""
         if not self.prepared.mesh.diagonal > 0.0:
             point = rounded(self.prepared, 1)
-            return point if self.size(point) <= most else None
-        promised = Bounds(self._measures, contract or Contract(WIDEST))
+            if self.size(point) > most:
+                return None
+            return point
+        promise = contract or Contract(WIDEST)
+        promised = Bounds(self._measures, promise)
         # Ways do not depend on the size, and neither do their steps.
-        usual = Bounds(self._measures, replace(contract or Contract(WIDEST), look=1.0))
+        usual = Bounds(self._measures, replace(promise, look=1.0))
         ways = ways_of(self.prepared, usual, self._options)
         sizing = SizeSearch(promised, self.size, self.additions, self.trace)
         candidates = list(sizing.trials(ways, most))
         # These are candidates of all sizes that are large enough for them.
-        specials = (
-            [trial_of(self.prepared, exact(self.prepared))]
-            if self._options.effort != "quick"
-            else []
-        )
+        specials: list[Trial] = []
+        if self._options.effort != "quick":
+            specials.append(trial_of(self.prepared, exact(self.prepared)))
         if sizing.usual_size / USUAL <= most <= USUAL * sizing.usual_size:
             usual_trial = self._smallest_trial(Bounds(self._measures, contract or BALANCED))
-            specials += [] if usual_trial is None else [usual_trial]
-        fitting = [
-            trial for trial in specials if self.size(trial.final) <= most and promised.keeps(trial)
-        ]
+            if usual_trial is not None:
+                specials.append(usual_trial)
+        small = [trial for trial in specials if self.size(trial.final) <= most]
+        fitting = [trial for trial in small if promised.keeps(trial)]
         candidates += [(promised.quality(trial), trial) for trial in fitting]
-        return min(candidates, key=lambda candidate: candidate[0])[1].final if candidates else None
+        if not candidates:
+            return None
+        _, nearest = min(candidates, key=itemgetter(0))
+        return nearest.final
 
     def _smallest_trial(self, bounds: Bounds) -> Trial | None:
         """Return the smallest trial that keeps all bounds."""
@@ -116,9 +127,9 @@ class Search:
     def seen(self, draft: Draft) -> str:
         """Return the look of a stream, in words."""
         metric = self._measures.look
-        return (
-            "nothing is visible" if metric is None else f"look {metric.distance(draft.decoded):.3g}"
-        )
+        if metric is None:
+            return "nothing is visible"
+        return f"look {metric.distance(draft.decoded):.3g}"
 
 
 class OneSearch:
@@ -142,9 +153,7 @@ class OneSearch:
 
     def begin(self, ways: list[Way]) -> None:
         """Estimate the bytes of all ways before any is coded."""
-        contract = self._bounds.contract
-        luck = self._search.prepared.graph.size**-0.25 if contract.look < math.inf else SLACK
-        rise = 2.0 if contract.visual < math.inf else 1.0
+        rise, luck = self._rise_and_luck()
         rival = math.inf
         progress = self._bounds.measures.progress
         progress.by(FINDING)
@@ -164,20 +173,26 @@ class OneSearch:
         for prospect in self.prospects:
             self._code_also(prospect)
 
+    def _rise_and_luck(self) -> tuple[float, float]:
+        """Return how fast errors grow with steps, as logarithms, and how far luck takes them from that."""
+        contract = self._bounds.contract
+        rise, luck = 1.0, SLACK
+        if contract.visual < math.inf:
+            rise = 2.0
+        if contract.look < math.inf:
+            luck = self._search.prepared.graph.size**-0.25
+        return rise, luck
+
     def _code_also(self, prospect: Prospect) -> None:
         """Code the trials that a way names with its estimate, until their bytes rise."""
-        way, least = prospect.way, float(prospect.sizes.mean[prospect.first])
+        way = prospect.way
+        least = float(prospect.sizes.mean[prospect.first])
         for step in prospect.estimate.also:
             trial = way.at(step)
-            index, size = prospect.index_of(trial.step), self.size_of(way, trial)
-            prospect.add(index, trial, size)
-            self._trace.note(
-                "code",
-                way.name,
-                step=trial.step,
-                size=math.exp(size),
-                reason="finer than the first one",
-            )
+            size = self.size_of(way, trial)
+            prospect.add(prospect.index_of(trial.step), trial, size)
+            facts = {"step": trial.step, "size": math.exp(size)}
+            self._trace.note("code", way.name, **facts, reason="finer than the first one")
             if size > least + RISE:
                 return
             least = min(least, size)
@@ -187,15 +202,14 @@ class OneSearch:
         while prospects := [prospect for prospect in self.prospects if prospect.is_open]:
             stages = [prospect.next_stage(self._least, price) for prospect in prospects]
             number = int(np.argmax([gain for gain, _ in stages]))
-            prospect, (gain, index) = prospects[number], stages[number]
-            if self._least < math.inf and gain <= 0.0:
-                self._trace.note("end", reason="no trial is worth its price")
-                return
-            reason = (
-                "nothing keeps the bounds yet"
-                if self._least == math.inf
-                else f"{gain:.2%} expected"
-            )
+            prospect = prospects[number]
+            gain, index = stages[number]
+            reason = "nothing keeps the bounds yet"
+            if self._least < math.inf:
+                if gain <= 0.0:
+                    self._trace.note("end", reason="no trial is worth its price")
+                    return
+                reason = f"{gain:.2%} expected"
             try:
                 self._open(prospect, index, reason)
             except LimitError:  # blocks that decoders would refuse
@@ -204,36 +218,40 @@ class OneSearch:
 
     def _open(self, prospect: Prospect, index: int, reason: str) -> None:
         """Code a trial, or draw one that is coded."""
-        way = prospect.way
         if prospect.states[index] == UNCODED:
-            trial = way.at(math.exp(prospect.steps[index]))
-            self._bounds.measures.progress.by(CODING)
-            size = self.size_of(way, trial)
-            if not prospect.sizes.count:
-                self._correct_kin(prospect, size - float(prospect.sizes.mean[index]))
-            prospect.add(index, trial, size)
-            self._trace.note("code", way.name, step=trial.step, size=math.exp(size), reason=reason)
-            return
+            self._code(prospect, index, reason)
+        else:
+            self._draw(prospect, index, reason)
+
+    def _code(self, prospect: Prospect, index: int, reason: str) -> None:
+        way = prospect.way
+        trial = way.at(math.exp(prospect.steps[index]))
+        self._bounds.measures.progress.by(CODING)
+        size = self.size_of(way, trial)
+        if not prospect.sizes.count:
+            self._correct_kin(prospect, size - float(prospect.sizes.mean[index]))
+        prospect.add(index, trial, size)
+        self._trace.note("code", way.name, step=trial.step, size=math.exp(size), reason=reason)
+
+    def _draw(self, prospect: Prospect, index: int, reason: str) -> None:
+        """Draw a trial, and take it if it is the best one; close steps that are too coarse if it is faulty."""
+        way = prospect.way
         trial = prospect.coded[index]
         error = self._bounds.excess(trial)
         prospect.judge(index, error)
         size = float(prospect.sizes.mean[index])
-        self._trace.note(
-            "draw",
-            way.name,
-            step=trial.step,
-            size=math.exp(size),
-            error=math.exp(error),
-            reason=reason,
-        )
+        self._note_drawing(way, trial, size, error, reason)
         if error > 0.0 or size >= self._least:
             return
         is_faulty = self._is_faulty(trial)
-        mended = way.mended(trial) if is_faulty else None
+        mended = None
+        if is_faulty:
+            mended = way.mended(trial)
         if mended is not None:
-            trial, error, size = mended, self._bounds.excess(mended), self.size_of(way, mended)
-            facts = {"step": trial.step, "size": math.exp(size), "error": math.exp(error)}
-            self._trace.note("draw", way.name, **facts, reason="with fewer folds")
+            trial = mended
+            error = self._bounds.excess(trial)
+            size = self.size_of(way, trial)
+            self._note_drawing(way, trial, size, error, "with fewer folds")
             if error > 0.0 or size >= self._least:
                 return
             is_faulty = self._is_faulty(trial)
@@ -242,6 +260,13 @@ class OneSearch:
             prospect.close(prospect.steps > prospect.steps[index] - finer)
         else:
             self.best, self._least = trial, size
+
+    def _note_drawing(
+        self, way: Way, trial: Trial, size: float, error: float, reason: str = ""
+    ) -> None:
+        """Add a drawn trial to the trace; size and error are logarithms."""
+        facts = {"step": trial.step, "size": math.exp(size), "error": math.exp(error)}
+        self._trace.note("draw", way.name, **facts, reason=reason)
 
     def _correct_kin(self, opened: Prospect, surprise: float) -> None:
         """Correct the estimates of ways that err together with one whose first trial is coded."""
@@ -255,7 +280,9 @@ class OneSearch:
         if is_faulty:
             self._refusals += 1  # slivers may need steps that are far finer
             return DOUBT
-        return 0.0 if self._bounds.keeps(trial) else SLACK
+        if self._bounds.keeps(trial):
+            return 0.0
+        return SLACK
 
     def _is_faulty(self, trial: Trial) -> bool:
         is_seen = self._bounds.metric is not None
@@ -267,28 +294,21 @@ class OneSearch:
 
         def excess(way: Way, step: float) -> float:
             trial = way.at(step)
-            size, error = self.size_of(way, trial), self._bounds.excess(trial)
-            self._trace.note(
-                "draw", way.name, step=trial.step, size=math.exp(size), error=math.exp(error)
-            )
+            size = self.size_of(way, trial)
+            error = self._bounds.excess(trial)
+            self._note_drawing(way, trial, size, error)
             expected.setdefault(way.name, size + max(error, 0.0))
-            if (
-                error <= 0.0
-                and size < self._least
-                and not self._finer(trial, self._is_faulty(trial))
-            ):
+            if error > 0.0:
+                if size < self._least:
+                    return error
+                # A way that takes more bytes than another one where it is too coarse ends here.
+                return -SLACK / 4.0
+            if size < self._least and not self._finer(trial, self._is_faulty(trial)):
                 self.best, self._least = trial, size
-            # A way that takes more bytes than another one where it is too coarse ends here.
-            return error if error <= 0.0 or size < self._least else -SLACK / 4.0
+            return error
 
         for tries in (1, TRIES):
             for way in sorted(ways, key=lambda way: expected.get(way.name, 0.0)):
+                range_of_steps = way.first, way.least, way.most
                 with suppress(LimitError):  # blocks that decoders would refuse
-                    secant(
-                        partial(excess, way),
-                        way.first,
-                        way.least,
-                        way.most,
-                        tries,
-                        slack=SLACK / 2.0,
-                    )
+                    secant(partial(excess, way), *range_of_steps, tries, slack=SLACK / 2.0)

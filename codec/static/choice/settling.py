@@ -61,18 +61,20 @@ class Settler:
         losses = np.column_stack([np.maximum(1.0 - tangent, 0.0), tangent]) / max(unit, 1e-300)
         normals = in_frames(self._normals, frames)
         levels = np.rint(offsets / steps).astype(np.int32)
-        creases = self._creases._replace(
-            costs=self._creases.costs * (CREASED * count / max(worth, 1e-300))
-        )
+        crease_worth = CREASED * count / max(worth, 1e-300)
+        creases = self._creases._replace(costs=self._creases.costs * crease_worth)
         axes = np.ascontiguousarray(frames)
         goals = self._positions, axes, np.ascontiguousarray(offsets), normals, losses, reach
-        around, moved = (self._graph.offsets, self._graph.neighbors), np.empty((count, 3))
+        around = self._graph.offsets, self._graph.neighbors
+        moved = np.empty((count, 3))
         # The kernel's rows: each axis and mean size of neighbors; columns: each size.
         counts = np.zeros((30, 16))
         # More sweeps, over all axes and along the surface, move few levels.
         for fixed in (0, 0, 1, 1):
-            rates, sizes = (_bits(counts), PULL, counts), known_steps(levels) if fixed else steps
-            _kernels.settle_levels(goals, sizes, *around, rates, fixed, creases, moved, levels)
+            if fixed:
+                steps = known_steps(levels)
+            rates = _bits(counts), PULL, counts
+            _kernels.settle_levels(goals, steps, *around, rates, fixed, creases, moved, levels)
         return levels
 
     @cached_property
@@ -102,15 +104,11 @@ def creases_of(positions: Positions, faces: Faces) -> Creases:
     bends = CREASE, math.cos(math.radians(middle + WITHIN)), math.cos(math.radians(middle - WITHIN))
 
     def collect(room: int) -> tuple[int, Indices, npt.NDArray[np.uint8], Matrix]:
-        pairs, sharp, costs = (
-            np.empty((room, 2), np.int32),
-            np.empty(room, np.uint8),
-            np.empty(room),
-        )
+        creases = np.empty((room, 2), np.int32), np.empty(room, np.uint8), np.empty(room)
         number = _kernels.collect_creases(
-            positions, faces, around, MOST_AROUND, bends, crosses, (pairs, sharp, costs)
+            positions, faces, around, MOST_AROUND, bends, crosses, creases
         )
-        return number, pairs, sharp, costs
+        return number, *creases
 
     _, pairs, sharp, costs = collect(collect(0)[0])
     starts, members = vertex_faces(faces[pairs].reshape(-1, 6), count)

@@ -47,9 +47,8 @@ class Shaper:
         """Levels along fixed directions."""
         chosen = np.array(goals, np.int32, order="C")
         scales = np.maximum(np.abs(chosen).mean(axis=0), 0.4)
-        moved = np.ascontiguousarray(
-            base + np.einsum("na,naj->nj", chosen.astype(np.float64), directions)
-        )
+        shifts = np.einsum("na,naj->nj", chosen.astype(np.float64), directions)
+        moved = np.ascontiguousarray(base + shifts)
         flat = np.ascontiguousarray(directions.reshape(len(base), -1))
         aim = worth / len(base), reach, 6
         _kernels.shape_levels(self._wanted, aim, (moved, chosen, self._open), flat, scales, PULL)
@@ -60,15 +59,13 @@ class Shaper:
     ) -> Levels:
         """Places on a grid."""
         chosen = np.array(goals, np.int32, order="C")
-        flaps = self._flaps
-        bends = (
-            chosen[flaps[:, 0]] + chosen[flaps[:, 1]] - chosen[flaps[:, 2]] - chosen[flaps[:, 3]]
-        )
+        a, b, c, d = self._flaps.T
+        bends = chosen[a] + chosen[b] - chosen[c] - chosen[d]
         moved = np.ascontiguousarray(chosen * step + origin)
         aim = worth / (3 * len(chosen)), reach, 6
-        _kernels.shape_grid(
-            self._wanted, aim, (moved, chosen, self._open), step, self._listed_flaps(), bends, RATES
-        )
+        shaped = moved, chosen, self._open
+        flaps = self._listed_flaps()
+        _kernels.shape_grid(self._wanted, aim, shaped, step, flaps, bends, RATES)
         return chosen
 
     def unfold(
@@ -76,21 +73,15 @@ class Shaper:
     ) -> Levels | None:
         """Levels, shape (n, 3), that fold fewer edges, along `directions`, shape (n or 1, 9); None: none is folded."""
         end_phase(len(levels))  # the choice of these levels has taken many arrays
-        chosen, most = (
-            np.array(levels, np.int32, order="C"),
-            -(-len(self._original.faces) // 10_000),
-        )
+        chosen = np.array(levels, np.int32, order="C")
+        most = -(-len(self._original.faces) // 10_000)
         shaped = np.array(positions), chosen, self._open
-        moves = _kernels.unfold_levels(
-            self._wanted,
-            reach,
-            shaped,
-            np.ascontiguousarray(directions),
-            self._listed_flaps(),
-            most,
-            self._limits,
-        )
-        return chosen if moves else None
+        axes = np.ascontiguousarray(directions)
+        flaps = self._listed_flaps()
+        moves = _kernels.unfold_levels(self._wanted, reach, shaped, axes, flaps, most, self._limits)
+        if not moves:
+            return None
+        return chosen
 
     def over(self, positions: Positions) -> Indices:
         """The vertices of edges that are folded farther than they were."""
@@ -141,9 +132,7 @@ class Shaper:
     def _listed_flaps(self) -> tuple[Indices, Indices, Indices]:
         """Return the flaps, and which of them each vertex is in."""
         # Listed for each use: kept lists take as much memory as the faces twice, and listing is quick.
-        starts, members = (
-            np.empty(self._graph.size + 1, np.int32),
-            np.empty(self._flaps.size, np.int32),
-        )
+        starts = np.empty(self._graph.size + 1, np.int32)
+        members = np.empty(self._flaps.size, np.int32)
         _kernels.list_flaps(self._flaps, starts, members)
         return self._flaps, starts, members

@@ -40,16 +40,10 @@ class SizeSearch:
     def trials(self, ways: list[Way], most: float) -> Iterator[tuple[float, Trial]]:
         """Yield trials of at most `most` bytes with their quality, as a logarithm; the lowest is best."""
         for way in self._promising(ways, most):
-            fitting = self._fitting(way, most)
-            for trial in fitting:
+            for trial in self._fitting(way, most):
                 quality = self._bounds.quality(trial)
-                self._trace.note(
-                    "draw",
-                    way.name,
-                    step=trial.step,
-                    size=trial.draft.size,
-                    error=math.exp(quality),
-                )
+                size, error = trial.draft.size, math.exp(quality)
+                self._trace.note("draw", way.name, step=trial.step, size=size, error=error)
                 if self._bounds.keeps(trial):
                     yield quality, trial
 
@@ -80,16 +74,15 @@ class SizeSearch:
 
     def _fitting(self, way: Way, most: float) -> list[Trial]:
         """Return the trials of the finest rungs of a way that fit."""
-        rungs = way.ladder if len(way.ladder) == 1 else _every(way.ladder)
+        rungs = _every(way.ladder)
         trials: dict[int, Trial] = {}
 
         def excess(index: int) -> float:
             """Return by how many bytes a rung is too large."""
             if index not in trials:
-                trials[index] = way.at(math.exp(rungs[index]))
-                self._trace.note(
-                    "code", way.name, step=trials[index].step, size=self._size(trials[index].draft)
-                )
+                trial = trials[index] = way.at(math.exp(rungs[index]))
+                size = self._size(trial.draft)
+                self._trace.note("code", way.name, step=trial.step, size=size)
             return self._size(trials[index].final) - most
 
         finest = self._finest(way, rungs, excess)
@@ -115,26 +108,34 @@ class SizeSearch:
             else:
                 high = index
             if low >= 0 and high < len(rungs):
-                share = 0.5 if halves else excess(low) / (excess(low) - excess(high))
+                share = 0.5
+                if not halves:
+                    share = excess(low) / (excess(low) - excess(high))
                 target = low + round(share * (high - low))
                 halves = not halves
             else:
                 jump = max(math.floor(abs(over) / (self._saving * RUNG)), stride)
-                target = index + (jump if over > 0.0 else -jump)
+                if over <= 0.0:
+                    jump = -jump
+                target = index + jump
                 stride *= 2
             index = min(max(target, low + 1), high - 1)
         if high < len(rungs):
             return high
         # Wide steps move vertices so far that images no longer help: sizes fall, and rise again.
         begin = int(abs(rungs - math.log(way.first)).argmin())
-        return next(
-            (index for index in range(begin, len(rungs), SPARSE) if excess(index) <= 0.0), None
-        )
+        for index in range(begin, len(rungs), SPARSE):
+            if excess(index) <= 0.0:
+                return index
+        return None
 
 
 def _every(ladder: Matrix) -> Matrix:
-    """Return the rungs of a ladder that are an eighth of an octave apart."""
+    """Return the rungs of a ladder that are an eighth of an octave apart; its only one, if it has no more."""
+    if len(ladder) == 1:
+        return ladder
     first = math.ceil(ladder[0] / RUNG)
     last = math.floor(ladder[-1] / RUNG)
-    rungs = RUNG * np.arange(first, last + 1)
-    return rungs if len(rungs) else ladder[-1:]
+    if last < first:
+        return ladder[-1:]
+    return RUNG * np.arange(first, last + 1)

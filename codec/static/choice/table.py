@@ -26,21 +26,27 @@ def ways_of(prepared: Prepared, bounds: Bounds, options: EncodeOptions) -> list[
 
 def _grids(frame: Frame, bounds: Bounds, options: EncodeOptions) -> Iterator[Way]:
     repeats = frame.explained >= FEWEST_IMAGES
-    yield Gridded("images", frame, images=True, going=True) if repeats else Gridded("grid", frame)
+    if repeats:
+        yield Gridded("images", frame, images=True, going=True)
+    else:
+        yield Gridded("grid", frame)
     if options.effort == "quick":
         return
     if repeats and frame.moves_are_seen:
         yield Gridded("images, none moved", frame, images=True)
-    along = Frame(frame.prepared, bounds) if any(frame.turn) else frame
+    along = frame
+    if any(frame.turn):
+        along = Frame(frame.prepared, bounds)
     for step in made_steps(along):
         yield Gridded("made", along, images=repeats, only_step=step)
-    is_seen = bounds.contract.look < math.inf
-    rows = regular_frame(frame) if is_seen else None
-    if rows is not None:
-        yield Gridded("rows", rows)
-        yield Gridded("rows, chosen", rows, worth=1.0)
-    else:
+    rows = None
+    if bounds.contract.look < math.inf:
+        rows = regular_frame(frame)
+    if rows is None:
         yield Gridded("chosen", frame, worth=1.0)
+        return
+    yield Gridded("rows", rows)
+    yield Gridded("rows, chosen", rows, worth=1.0)
 
 
 def _blocks(prepared: Prepared, bounds: Bounds, options: EncodeOptions) -> Iterator[Way]:
@@ -53,7 +59,9 @@ def _blocks(prepared: Prepared, bounds: Bounds, options: EncodeOptions) -> Itera
     if options.target and options.target.shrinks_with_step:
         usual.append(PRESETS["none"])
     is_usual = blocks_of(options) in map(blocks_of, usual)
-    blocks = OnCells(prepared, options, bounds) if is_seen and is_usual else on_vertices
+    blocks: OnCells | OnVertices = on_vertices
+    if is_seen and is_usual:
+        blocks = OnCells(prepared, options, bounds)
     settled = is_seen or bounds.contract.angle == ANY_ANGLE
     refined = Refined("levels", prepared, bounds, blocks, settled=settled)
     yield refined

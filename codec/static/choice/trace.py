@@ -18,12 +18,17 @@ class Event:
 
     def __str__(self) -> str:
         if self.action == "end":
-            return f"end {self.way}: {self.reason}" if self.way else f"end: {self.reason}"
+            words = "end"
+            if self.way:
+                words += f" {self.way}"
+            return f"{words}: {self.reason}"
         words = f"{self.action} {self.way}, step {self.step:.4g}, {self.size:.0f} bytes"
         if self.action == "draw":
             words += f", {self.error:.3f} of its bound"
-        reason = f": {self.reason}" if self.reason else ""
-        return f"{words}, {self.milliseconds:.1f} ms{reason}"
+        words += f", {self.milliseconds:.1f} ms"
+        if self.reason:
+            words += f": {self.reason}"
+        return words
 
 
 class Trace(list[Event]):

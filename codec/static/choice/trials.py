@@ -79,10 +79,10 @@ class Way(Protocol):
 def ladder_of(least: float, most: float) -> Matrix:
     """Return the logarithms of steps between two bounds, which are at the same places for all meshes and promises."""
     low, high = math.log(least), math.log(most)
-    rungs = np.asarray(
-        SLACK * np.arange(math.ceil(low / SLACK), math.floor(high / SLACK) + 1), np.float64
-    )
-    return rungs if len(rungs) else np.array([high])
+    first, last = math.ceil(low / SLACK), math.floor(high / SLACK)
+    if last < first:
+        return np.array([high])
+    return np.asarray(SLACK * np.arange(first, last + 1), np.float64)
 
 
 def on_ladder(step: float) -> float:
