@@ -3,7 +3,6 @@
 import math
 import sys
 from collections.abc import Callable, Iterator
-from contextlib import nullcontext, suppress
 from dataclasses import dataclass, replace
 from functools import partial
 
@@ -115,7 +114,10 @@ class Encoder:
         ):
             raise OptionError("preset none needs a target or a bound, such as size or max_error")
         packets.Metadata(mesh.metadata).require_readable()
-        mesh.require_sizes(*(SIZES if self.options.promise is None else PROMISED_SIZES))
+        sizes = SIZES
+        if self.options.promise is not None:
+            sizes = PROMISED_SIZES
+        mesh.require_sizes(*sizes)
         self._input = Sent(mesh, self.options)
         self.look: float | None = None
         self.decoded: TriangleMesh | None = None
@@ -123,11 +125,9 @@ class Encoder:
         self.unseen = ""
         self._kept_exactly = False
         self._attribute_notes: tuple[str, ...] = ()
-        promise, unit = self.options.promise, mesh.metadata.get("unit")
-        size = mesh.without_isolated_vertices()[0].diagonal
-        self._doubt = (
-            "" if promise is None else promise.doubt(size, unit if isinstance(unit, str) else "")
-        )
+        self._doubt = ""
+        if self.options.promise is not None:
+            self._doubt = _doubt(self.options.promise, mesh)
 
     @property
     def trials(self) -> tuple[Event, ...]:
@@ -187,10 +187,12 @@ class Encoder:
         """
         if self._input.joined.splits is not None:
             return np.arange(len(self._input.source.positions))
-        place = np.empty(len(self._input.joined.first) + 1, np.int64)
-        place[self._input.prepared.vertex_order] = np.arange(len(self._input.joined.first))
+        joined = self._input.joined
+        count = len(joined.first)
+        place = np.empty(count + 1, np.int64)
+        place[self._input.prepared.vertex_order] = np.arange(count)
         place[-1] = -1
-        return place[self._input.joined.index]
+        return place[joined.index]
 
     @property
     def face_order(self) -> Order:
@@ -243,9 +245,8 @@ class Encoder:
         if options.grid is not None:
             return rounded(self._input.prepared, options.grid)
         if options.grid_cell is not None:
-            return rounded_to_cells(
-                self._input.prepared, options.grid_cell, options.grid_origin or (0.0, 0.0, 0.0)
-            )
+            origin = options.grid_origin or (0.0, 0.0, 0.0)
+            return rounded_to_cells(self._input.prepared, options.grid_cell, origin)
         with as_of_decoders(options.limits):
             return self._spectral.base(self._spectral.first_step, nearing.within(0.8)).draft
 
@@ -303,9 +304,12 @@ class Encoder:
         smaller, met = self._finest_attributes(sender, most, nearing)
         if met is not None:
             fitting = [draft for draft in (self._best_of_size(most), smaller) if draft is not None]
-            return self._judged(
-                min(fitting, key=lambda draft: self._input.measured(draft, met)[1] or 0.0)
-            )
+
+            def look_of(draft: Draft) -> float:
+                _, look, _ = self._input.measured(draft, met)
+                return look or 0.0
+
+            return self._judged(min(fitting, key=look_of))
         if self.options.promise is None:
             draft = self._best_of_size(most)
             if draft is not None:
@@ -344,13 +348,17 @@ class Encoder:
             ]
         smaller: Draft | None = None
         for contract in contracts:
-            with suppress(TargetError) if met else nullcontext():
+            try:
                 sender_of_draft, draft = smallest(sender, contract, nearing)
-                if met is None or draft.size <= most:
-                    self._input, smaller = sender_of_draft, draft
-                if draft.size > most:
-                    break
-                met = contract
+            except TargetError:
+                if met is None:
+                    raise
+                continue
+            if met is None or draft.size <= most:
+                self._input, smaller = sender_of_draft, draft
+            if draft.size > most:
+                break
+            met = contract
         return smaller, met
 
     def _refusal_of_size(
@@ -383,7 +391,8 @@ class Encoder:
     def attempt(self, step: float, progress: Progress | None = None) -> Attempt:
         """Encode blocks with a given quantization step, and compare the decoded mesh."""
         with as_of_decoders(self.options.limits):
-            return self._judged(self._input.completed(self._spectral.base(step, progress).draft))
+            base = self._spectral.base(step, progress)
+            return self._judged(self._input.completed(base.draft))
 
     def seen(self, attempt: Attempt) -> str:
         """Return the look of an attempt, in words."""
@@ -395,9 +404,11 @@ class Encoder:
     def _compared(self, draft: Draft) -> Comparison:
         reference, unit = self._reference
         comparison = reference.compare(draft.decoded / unit)
-        lengths = {"rms": comparison.rms * unit, "max_error": comparison.max_error * unit}
         return replace(
-            comparison, **lengths, nmsve_paper_db=decibel(comparison.nmsve * reference.scale * unit)
+            comparison,
+            rms=comparison.rms * unit,
+            max_error=comparison.max_error * unit,
+            nmsve_paper_db=decibel(comparison.nmsve * reference.scale * unit),
         )
 
     def _verified(self, draft: Draft, nearing: Nearing, contract: Contract | None = None) -> Draft:
@@ -430,12 +441,21 @@ class Encoder:
     @cached_property
     def _reference(self) -> tuple[Reference, float]:
         """The mesh over a power of two, by which no face gets or loses an area; and the power."""
-        original, place = (
-            self._input.source,
-            self._input.joined.first[self._input.prepared.coding_order],
-        )
-        unit = math.ldexp(0.5, math.frexp(self._input.prepared.units.scale)[1])
-        return Reference(original.positions[place] / unit, self.mesh.faces), unit
+        prepared = self._input.prepared
+        place = self._input.joined.first[prepared.coding_order]
+        _, exponent = math.frexp(prepared.units.scale)
+        unit = math.ldexp(0.5, exponent)
+        positions = self._input.source.positions[place]
+        return Reference(positions / unit, self.mesh.faces), unit
+
+
+def _doubt(promise: Contract, mesh: TriangleMesh) -> str:
+    """A question about the unit of a mesh; empty without a doubt."""
+    used, *_ = mesh.without_isolated_vertices()
+    unit = mesh.metadata.get("unit")
+    if not isinstance(unit, str):
+        unit = ""
+    return promise.doubt(used.diagonal, unit)
 
 
 def encode(mesh: TriangleMesh, options: EncodeOptions | None = None) -> bytes:

@@ -69,10 +69,10 @@ def join(mesh: TriangleMesh, *, keep: bool, exact: bool = False) -> JoinedMesh:
     notes: tuple[str, ...] = ()
     if exact:
         mesh, notes = _single(mesh)
-    # Exact streams keep the sign of zero, so positions that differ only there stay two.
-    mesh_of_joined = joined(
-        mesh, group_rows(mesh.positions.view(np.int64) if exact else mesh.positions), keep=keep
-    )
+    rows = mesh.positions
+    if exact:  # such streams keep the sign of zero, so positions that differ only there stay two
+        rows = mesh.positions.view(np.int64)
+    mesh_of_joined = joined(mesh, group_rows(rows), keep=keep)
     return replace(mesh_of_joined, notes=(*notes, *mesh_of_joined.notes))
 
 
@@ -81,30 +81,21 @@ def joined(
 ) -> JoinedMesh:
     # The object in C keeps what joining finds. Connectivity, order and attributes are coded from it without another
     # pass.
-    notes, splits, coder = [], None, GivenMesh(mesh.faces, index)
+    notes, splits = [], None
+    coder = GivenMesh(mesh.faces, index)
     index, first, coded_faces, merged, loose = coder.join(keep, keep and keep_loose)
     # A stream that keeps the order gives back the vertices as they were, copies included.
     if keep and (merged or (loose and keep_loose)):
         splits = np.flatnonzero((index >= 0) | keep_loose)
     if merged and not keep:
         notes.append(f"{MERGED} {counted(vertices=merged)} with others at the same position")
-    if collapsed := len(mesh.faces) - len(coded_faces):
+    collapsed = len(mesh.faces) - len(coded_faces)
+    if collapsed:
         notes.append(f"left out {counted(faces=collapsed)} without area")
     if loose and not (keep and keep_loose):
         notes.append(f"left out {counted(vertices=loose)} that no face uses")
-    unchanged = (
-        len(first) == len(mesh.positions)
-        and len(coded_faces) == len(mesh.faces)
-        and bool((np.diff(first) > 0).all())
-    )
-    if unchanged:
-        coded_mesh = TriangleMesh(mesh.positions, mesh.faces)  # which share the arrays
-    else:
-        coded_mesh = TriangleMesh(
-            sealed(mesh.positions[first]), sealed(index[mesh.faces[coded_faces]])
-        )
     return JoinedMesh(
-        coded_mesh,
+        _coded_mesh(mesh, index, first, coded_faces),
         index,
         first.astype(np.int64),
         coded_faces,
@@ -113,6 +104,17 @@ def joined(
         coder,
         mesh.positions,
     )
+
+
+def _coded_mesh(
+    mesh: TriangleMesh, index: Indices, first: Indices, coded_faces: Indices
+) -> TriangleMesh:
+    """The faces that are coded, on joined vertices; it shares the arrays of a mesh that joining does not change."""
+    same_sizes = len(first) == len(mesh.positions) and len(coded_faces) == len(mesh.faces)
+    if same_sizes and (np.diff(first) > 0).all():
+        return TriangleMesh(mesh.positions, mesh.faces)
+    positions = sealed(mesh.positions[first])
+    return TriangleMesh(positions, sealed(index[mesh.faces[coded_faces]]))
 
 
 MOST_CELLS = 1 << 20  # along an axis of a grid
@@ -131,32 +133,37 @@ def _single(mesh: TriangleMesh) -> tuple[TriangleMesh, tuple[str, ...]]:
     error = float(np.abs(single - mesh.positions).max(initial=0.0))
     if error == 0.0:
         return mesh, ()
-    edges = np.linalg.norm(
-        mesh.positions[mesh.faces[:, 0]] - mesh.positions[mesh.faces[:, 1]], axis=1
-    )
-    diagonal, edge = (
-        mesh.diagonal,
-        float(np.median(edges[edges > 0.0])) if edges.any() else math.inf,
-    )
     # Of the edge as well: a mesh far from the origin, or a long one with fine detail, loses its detail before its
     # diagonal notices.
-    if error > LOST_OF_DIAGONAL * diagonal or error > LOST_OF_EDGE * edge:
-        # Advice that can be typed in: a power of ten that is fine enough, and an origin of whole numbers.
-        cell = 10.0 ** math.ceil(
-            math.log10((float(np.ptp(mesh.positions, axis=0).max()) or error) / MOST_CELLS)
-        )
-        origin = ",".join(
-            f"{value:.12g}" for value in np.floor(mesh.positions.min(axis=0)).tolist()
-        )
+    if error > LOST_OF_DIAGONAL * mesh.diagonal or error > LOST_OF_EDGE * _usual_edge(mesh):
+        share = 100 * error / (mesh.diagonal or error)
         raise TargetError(
             f"lossless keeps single precision, which moves a vertex by {error:.3g}, "
-            f"{100 * error / (diagonal or error):.2g} % of the diagonal; a grid is more exact: in place of the preset, "
-            f"give --grid-cell {cell:g} --grid-origin={origin}"
+            f"{share:.2g} % of the diagonal; a grid is more exact: in place of the preset, "
+            f"give {_grid_options(mesh, error)}"
         )
     changed = int((single != mesh.positions).sum())
-    return replace(mesh, positions=single), (
-        f"{changed} coordinates were rounded to single precision, by {error:.2g}",
-    )
+    note = f"{changed} coordinates were rounded to single precision, by {error:.2g}"
+    return replace(mesh, positions=single), (note,)
+
+
+def _usual_edge(mesh: TriangleMesh) -> float:
+    """The median length of edges that have any; infinite where none has."""
+    begins = mesh.positions[mesh.faces[:, 0]]
+    ends = mesh.positions[mesh.faces[:, 1]]
+    edges = np.linalg.norm(begins - ends, axis=1)
+    if not edges.any():
+        return math.inf
+    return float(np.median(edges[edges > 0.0]))
+
+
+def _grid_options(mesh: TriangleMesh, error: float) -> str:
+    """Advice that can be typed in: a power of ten that is fine enough, and an origin of whole numbers."""
+    extent = float(np.ptp(mesh.positions, axis=0).max()) or error
+    cell = 10.0 ** math.ceil(math.log10(extent / MOST_CELLS))
+    corner = np.floor(mesh.positions.min(axis=0)).tolist()
+    origin = ",".join(f"{value:.12g}" for value in corner)
+    return f"--grid-cell {cell:g} --grid-origin={origin}"
 
 
 # Below these, an encoder need not try blocks at all.
@@ -197,9 +204,8 @@ class Prepared:
     def of_coded(self, corners: Indices) -> Indices:
         """Return the values of corners of joined faces, shape (m, 3), in coding order."""
         # The coder turns faces so that they begin with the vertex that it met first. Values of corners must follow.
-        return np.take_along_axis(
-            corners[self.coding_faces], (self.first_corners[:, None] + np.arange(3)) % 3, axis=1
-        )
+        columns = (self.first_corners[:, None] + np.arange(3)) % 3
+        return np.take_along_axis(corners[self.coding_faces], columns, axis=1)
 
     @cached_property
     def positions(self) -> Matrix:
@@ -218,11 +224,11 @@ class Prepared:
     def has_low_frequencies(self) -> bool:
         """Whether most vertices are in components that are large enough to have any."""
         # A thousand screws have a million vertices, and none of them has low frequencies.
+        if self.graph.size < FEW_VERTICES:
+            return False
         sizes = np.bincount(self.components)
-        return (
-            self.graph.size >= FEW_VERTICES
-            and sizes[sizes >= SMALL_COMPONENT].sum() >= 0.9 * self.graph.size
-        )
+        in_large_ones = int(sizes[sizes >= SMALL_COMPONENT].sum())
+        return in_large_ones >= 0.9 * self.graph.size
 
     @cached_property
     def partition(self) -> Partition:
@@ -287,17 +293,16 @@ class Parts:
 
     def cut(self, graph: Graph) -> Partition:
         parts = self.count(graph.size)
-        return metis_partition(graph, parts) if self.metis else derive_partition(graph, parts)
+        if self.metis:
+            return metis_partition(graph, parts)
+        return derive_partition(graph, parts)
 
     def labels(self, graph: Graph, partition: Partition) -> tuple[packets.Labels, ...]:
         """The labels of parts, where a decoder cannot derive them."""
         if not self.metis:
             return ()
-        return (
-            packets.Labels(
-                Cut(graph.offsets, graph.neighbors).write(partition.labels, partition.parts)
-            ),
-        )
+        cut = Cut(graph.offsets, graph.neighbors)
+        return (packets.Labels(cut.write(partition.labels, partition.parts)),)
 
 
 def prepare(
@@ -310,11 +315,18 @@ def prepare(
     repeats: int = WHERE_SMALLER,
 ) -> Prepared:
     """Code the connectivity of a mesh."""
-    mesh, connectivity = joined.mesh, EncodedConnectivity(*joined.coding.code(repeats=repeats))
+    mesh = joined.mesh
+    connectivity = EncodedConnectivity(*joined.coding.code(repeats=repeats))
     coding_order = connectivity.vertex_order.astype(np.int64)
     coding_faces = np.ascontiguousarray(connectivity.face_order, np.int32)
     ordered = TriangleMesh(sealed(mesh.positions[coding_order]), sealed(connectivity.faces))
-    order = (packets.Order(joined.coding.order(joined.original_positions)),) if keep_order else ()
+    order: tuple[packets.Order, ...] = ()
+    vertex_order, face_order = coding_order, coding_faces
+    if keep_order:
+        order = (packets.Order(joined.coding.order(joined.original_positions)),)
+        # Such a stream is decoded in the given order, so for callers nothing has moved.
+        vertex_order = np.arange(len(coding_order))
+        face_order = np.arange(len(mesh.faces), dtype=np.int32)
     return Prepared(
         mesh=ordered,
         graph=graph_of_faces(ordered.faces, len(coding_order)),
@@ -324,9 +336,8 @@ def prepare(
         repeats=connectivity.repeats,
         order=order,
         coding_order=coding_order,
-        # A stream with an order is decoded in the given one, so for callers nothing has moved.
-        vertex_order=np.arange(len(coding_order)) if keep_order else coding_order,
-        face_order=np.arange(len(mesh.faces), dtype=np.int32) if keep_order else coding_faces,
+        vertex_order=vertex_order,
+        face_order=face_order,
         coding_faces=coding_faces,
         first_corners=connectivity.first_corners,
         joined_faces=mesh.faces,
@@ -354,24 +365,12 @@ class Draft:
         return sum(map(len, self.frames))
 
     def _write(self) -> Iterator[bytes]:
-        writer, may_be_brief = SectionWriter(), self.may_be_brief and not self.header.light
-        # Framing takes about thirty bytes, a tenth of a stream of a small part.
-        brief = write_brief(self.header, self.body) if may_be_brief else None
-        later = (
-            brief is not None,
-            self.header.congruence > 0,
-            self.header.onorm > 0,
-            any(self.header.turn),
-        )
-        # The lowest version that knows everything in the stream, so that the oldest decoders still read what they can.
-        minor = (
-            3
-            if self.header.swift or self.header.repeats
-            else 2
-            if self.header.base
-            else int(any(later))
-        )
-        yield writer.start(minor)
+        writer = SectionWriter()
+        brief = None
+        if self.may_be_brief and not self.header.light:
+            # Framing takes about thirty bytes, a tenth of a stream of a small part.
+            brief = write_brief(self.header, self.body)
+        yield writer.start(self._minor_version(is_brief=brief is not None))
         if brief is not None:
             yield write_frame(FrameType.HEADER, brief)
             return
@@ -380,3 +379,15 @@ class Draft:
         # The sum of decoded positions tells a decoder that its arithmetic is that of the law: on a broken compiler it
         # says so.
         yield writer.end(checksum_of(self.decoded))
+
+    def _minor_version(self, *, is_brief: bool) -> int:
+        """The lowest version that knows everything in the stream, so that the oldest decoders still read what they
+        can."""
+        header = self.header
+        if header.swift or header.repeats:
+            return 3
+        if header.base:
+            return 2
+        if is_brief or header.congruence > 0 or header.onorm > 0 or any(header.turn):
+            return 1
+        return 0

@@ -82,7 +82,9 @@ class Contract:
 
     def reach(self, diagonal: float, unit: float) -> float:
         """Return the largest error of a vertex of a mesh of this diagonal, in multiples of `unit`."""
-        return (self.farthest if self.absolute else self.farthest * diagonal) / unit
+        if self.absolute:
+            return self.farthest / unit
+        return self.farthest * diagonal / unit
 
     def doubt(self, diagonal: float, unit: str) -> str:
         """Return a question about the unit if the bound is about as large as a mesh of this diagonal; empty if not.
@@ -94,9 +96,11 @@ class Contract:
         """
         if not self.absolute or self.farthest <= WIDEST * diagonal or not diagonal > 0.0:
             return ""
-        noun = f" {unit}" if unit else ""
-        text = f"{self.farthest:.3g}{noun} is {self.farthest / diagonal:.0%} of this mesh's size ({diagonal:.3g}{noun})"
-        text += f": is its unit {unit}?" if unit else ": is that its unit?"
+        noun, question = "", "is that its unit?"
+        if unit:
+            noun, question = f" {unit}", f"is its unit {unit}?"
+        share = f"{self.farthest / diagonal:.0%} of this mesh's size ({diagonal:.3g}{noun})"
+        text = f"{self.farthest:.3g}{noun} is {share}: {question}"
         if math.isinf(self.by_part):
             raise OptionError(text)
         return text
@@ -115,19 +119,21 @@ class Contract:
         return ", ".join(broken)
 
     def __str__(self) -> str:
-        angle = f", normal error {self.angle:g} degrees" if self.angle < ANY_ANGLE else ""
-        visual = f", visual error {decibel(self.visual):.6g} dB" if self.visual < math.inf else ""
-        look = f", look {self.look:g}" if self.look < math.inf else ""
-        return vertex_error(self.farthest, self.absolute) + angle + visual + look
+        bounds = [vertex_error(self.farthest, self.absolute)]
+        if self.angle < ANY_ANGLE:
+            bounds.append(f"normal error {self.angle:g} degrees")
+        if self.visual < math.inf:
+            bounds.append(f"visual error {decibel(self.visual):.6g} dB")
+        if self.look < math.inf:
+            bounds.append(f"look {self.look:g}")
+        return ", ".join(bounds)
 
 
 def vertex_error(value: float, absolute: bool) -> str:
     """A bound on vertices in words: a length, or a fraction of the diagonal."""
-    return (
-        f"vertex error {value:.4g}"
-        if absolute
-        else f"vertex error {100.0 * value:.4g} % of the diagonal"
-    )
+    if absolute:
+        return f"vertex error {value:.4g}"
+    return f"vertex error {100.0 * value:.4g} % of the diagonal"
 
 
 TARGETS = ("nmsve_db", "theta_deg", "bpv", "size")
@@ -185,7 +191,9 @@ class Target:
 
     def __post_init__(self) -> None:
         self._require_kind(tuple(UNITS), "a mesh or sequence")
-        low, high = (-300.0, 300.0) if self.kind == "nmsve_db" else (1e-30, 1e30)
+        low, high = 1e-30, 1e30
+        if self.kind == "nmsve_db":
+            low, high = -300.0, 300.0
         if not low <= self.value <= high:
             raise OptionError(
                 f"{self.worded(self.value)} cannot be a target: those from {low:g} to {high:g} can"
@@ -199,7 +207,9 @@ class Target:
 
     def reached(self, outcome: Attempted) -> float:
         """Return the outcome's value of the target's measure."""
-        return float(getattr(outcome if self.kind in SIZES else outcome.comparison, self.kind))
+        if self.kind in SIZES:
+            return float(getattr(outcome, self.kind))
+        return float(getattr(outcome.comparison, self.kind))
 
     def excess(self, outcome: Attempted) -> float:
         """Return the logarithm of the outcome's value over the target's; up to 0 the target is met."""
@@ -228,20 +238,26 @@ def secant(
     slack: float = SLACK,
 ) -> None:
     """Try numbers, to come to about the largest one whose excess is at most 0."""
-    low, high, sides = math.log(least), math.log(most), dict[bool, tuple[float, float]]()
-    at, before = min(max(math.log(first), low), high), math.nan
+    low, high = math.log(least), math.log(most)
+    sides = dict[bool, tuple[float, float]]()
+    at = min(max(math.log(first), low), high)
+    before = math.nan
     for _ in range(tries):
         if at == before:
             return
-        before, value = at, excess(math.exp(at)) + slack / 2.0
+        before = at
+        value = excess(math.exp(at)) + slack / 2.0
         sides[value > slack / 2.0] = at, value
         if abs(value) < slack / 2.0:
             return
         if len(sides) > 1:  # from the bad side to the good one
-            (bad, over), (good, under) = sides[True], sides[False]
-            at = good + (bad - good) * min(max(under / (under - over), 0.1), 0.9)
+            bad, over = sides[True]
+            good, under = sides[False]
+            share = under / (under - over)
+            at = good + (bad - good) * min(max(share, 0.1), 0.9)
         else:
-            at, rise = min(max(at - value / rise, low), high), rise / 2.0
+            at = min(max(at - value / rise, low), high)
+            rise /= 2.0
 
 
 Found = TypeVar("Found", bound=Attempted)
@@ -259,15 +275,17 @@ def search_step(
 
     def tried(step: float) -> float:
         outcome = attempt(max(step, finest))
-        outcomes.append((target.excess(outcome), outcome))
-        return outcomes[-1][0]
+        excess = target.excess(outcome)
+        outcomes.append((excess, outcome))
+        return excess
 
     power = -1.0 if target.shrinks_with_step else 1.0
     least, most = sorted((finest**power, WIDEST**power))
     secant(lambda tested: tried(tested**power), first**power, least, most, 2 * TRIES, rise)
     met = [outcome for outcome in outcomes if outcome[0] <= 0.0]
     if met:
-        return max(met, key=itemgetter(0))[1]
+        _, closest = max(met, key=itemgetter(0))
+        return closest
     best = min(target.reached(outcome) for _, outcome in outcomes)
     error = TargetError(
         f"{target.worded(target.value)} at most cannot be reached; the best possible is {target.worded(best)}"

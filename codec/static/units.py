@@ -42,18 +42,22 @@ def units_of(mesh: TriangleMesh) -> Units:
     """Center and diagonal of the bounding box, in single precision where that is exact enough."""
     low, high = box_around(mesh.positions)
     # Halved first, for the sum of two large coordinates may overflow.
-    center, diagonal = low / 2 + high / 2, mesh.diagonal
+    center = low / 2 + high / 2
+    diagonal = mesh.diagonal
     # All vertices at one place. Any unit does, and none may be zero.
     if not diagonal > 0.0:
         return Units(tuple(center), 1.0)
     with np.errstate(over="ignore"):
         coarse = center.astype(np.float32).astype(np.float64)
         # Rounded up, so that positions stay within half a unit of the center.
-        scale = float(np.nextafter(np.float32(diagonal * (1 + 4e-6)), np.float32(np.inf)))
+        rough_scale = np.float32(diagonal * (1 + 4e-6))
+        scale = float(np.nextafter(rough_scale, np.float32(np.inf)))
     # A center in single precision takes half the bytes, and moves the mesh by nothing.
     if np.abs(coarse - center).max() < 1e-6 * diagonal:
         center = coarse
-    return Units(tuple(center), scale if 1e-30 < scale < np.inf else diagonal)
+    if not 1e-30 < scale < np.inf:
+        scale = diagonal
+    return Units(tuple(center), scale)
 
 
 def single(value: float) -> float:

@@ -32,8 +32,9 @@ class AsGiven:
     @property
     def vertex_order(self) -> Order:
         """The given vertex that each of the decoder's is, or that lies at its place."""
-        splits = self.joined.splits
-        return self.joined.first[self.prepared.vertex_order] if splits is None else splits
+        if self.joined.splits is not None:
+            return self.joined.splits
+        return self.joined.first[self.prepared.vertex_order]
 
     @property
     def loose(self) -> Positions:
@@ -50,13 +51,19 @@ class AsGiven:
             vertices == len(self.vertex_order),
             f"decoded {vertices} of {len(self.vertex_order)} vertices",
         )
-        ordered = self.prepared.of_coded(faces) if self.prepared.order else faces
+        ordered = self.in_coding_order(faces)
         coded_of = np.full(vertices, -1, np.int64)
         # If two faces disagreed about a vertex, the second would win; the next line finds that.
         coded_of[ordered] = coded
         require(bool((coded_of[ordered] == coded).all()), "the decoded faces differ")
         self._require_order(faces)
         return coded_of
+
+    def in_coding_order(self, corners: Faces) -> Faces:
+        """Values of the decoder's corners, shape (m, 3), in the order of coding."""
+        if not self.prepared.order:
+            return corners
+        return self.prepared.of_coded(corners)
 
     def _require_order(self, faces: Faces) -> None:
         """Require that each face lies where the given one lies; turned, unless the order is kept."""
@@ -67,12 +74,13 @@ class AsGiven:
             actual = self.prepared.vertex_order[faces]
         else:  # copies of a vertex lie at its place
             corners = self.source.faces[self.joined.coded_faces][self.prepared.face_order]
-            expected, actual = (
-                self.source.positions[corners],
-                self.source.positions[self.vertex_order[faces]],
-            )
+            expected = self.source.positions[corners]
+            actual = self.source.positions[self.vertex_order[faces]]
+        turns = 3
+        if self.prepared.order:
+            turns = 1
         # Without a kept order, a face may begin with any of its corners, but never be turned over.
-        for turn in range(1 if self.prepared.order else 3):
+        for turn in range(turns):
             differs = (np.roll(actual, turn, axis=1) != expected).any(
                 axis=tuple(range(1, actual.ndim))
             )
@@ -109,7 +117,8 @@ def require_positions(
     decoded: Positions, expected: Positions, matched: Order, loose: Positions
 ) -> None:
     """Require positions of the closed loop, shape (n, 3), bit for bit, and those of vertices that no face uses."""
-    in_order, unused = expected[matched], matched < 0
+    in_order = expected[matched]
+    unused = matched < 0
     require(int(unused.sum()) == len(loose), "the decoded vertices that no face uses differ")
     in_order[unused] = loose
     require(bool((decoded == in_order).all()), "the decoded positions differ")
@@ -123,34 +132,31 @@ def require_attributes(
 ) -> None:
     """Require attributes of the closed loop at corners and faces, except for rounding."""
     require(len(decoded) == len(carried), f"decoded {len(decoded)} of {len(carried)} attributes")
-    prepared = original.prepared
     for attribute, prepared_attribute in zip(decoded, carried, strict=True):
-        declared = prepared_attribute.declaration
-        name = f"attribute {declared.name!r}"
-        same = (
-            attribute.name == declared.name and attribute.semantic == SEMANTICS[declared.semantic]
-        )
-        require(
-            same and attribute.values.shape[1:] == (declared.components,),
-            f"{name} was decoded with a different name or type",
-        )
-        # Decoders compute these in their own ways, so that their last bits are open.
-        if declared.coding == RECOMPUTED:
-            require(
-                bool(np.isfinite(attribute.values).all()), f"{name} is not finite after decoding"
-            )
-            continue
-        values = prepared_attribute.values
-        if declared.domain == FACE:
-            at = attribute.values[prepared.coding_faces] if prepared.order else attribute.values
-            require(_alike(at, values), f"{name} has other values after decoding")
-            continue
+        _require_attribute(attribute, prepared_attribute, faces, original)
+
+
+def _require_attribute(
+    attribute: Attribute, carried: PreparedAttribute, faces: Faces, original: AsGiven
+) -> None:
+    declared = carried.declaration
+    name = f"attribute {declared.name!r}"
+    same = attribute.name == declared.name and attribute.semantic == SEMANTICS[declared.semantic]
+    same = same and attribute.values.shape[1:] == (declared.components,)
+    require(same, f"{name} was decoded with a different name or type")
+    # Decoders compute these in their own ways, so that their last bits are open.
+    if declared.coding == RECOMPUTED:
+        is_finite = bool(np.isfinite(attribute.values).all())
+        require(is_finite, f"{name} is not finite after decoding")
+        return
+    actual, expected = attribute.values, carried.values
+    if declared.domain != FACE:
         rows = attribute.indices if attribute.indices is not None else faces
-        rows = prepared.of_coded(rows) if prepared.order else rows
-        require(
-            _alike(attribute.values[rows], values[prepared_attribute.surface.faces]),
-            f"{name} has other values after decoding",
-        )
+        actual = actual[original.in_coding_order(rows)]
+        expected = expected[carried.surface.faces]
+    elif original.prepared.order:
+        actual = actual[original.prepared.coding_faces]
+    require(_alike(actual, expected), f"{name} has other values after decoding")
 
 
 def _alike(actual: npt.NDArray[Any], expected: npt.NDArray[Any]) -> bool:
@@ -159,14 +165,8 @@ def _alike(actual: npt.NDArray[Any], expected: npt.NDArray[Any]) -> bool:
     if actual.dtype.kind != "f":
         return bool((actual == expected).all())
     # Floats of attributes come from dequantization in double precision, where one rounding may differ.
-    return bool(
-        np.allclose(
-            actual,
-            expected,
-            rtol=ROUNDING,
-            atol=ROUNDING * float(np.abs(expected).max(initial=0.0)),
-        )
-    )
+    largest = float(np.abs(expected).max(initial=0.0))
+    return bool(np.allclose(actual, expected, rtol=ROUNDING, atol=ROUNDING * largest))
 
 
 def require(holds: bool, problem: str) -> None:

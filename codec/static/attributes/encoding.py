@@ -51,15 +51,17 @@ def recomputed(surface: Surface, positions: Matrix) -> Matrix:
     """Normals of the values of a surface: those of the faces around, by area (A 7); shape (k, 3)."""
     a, b, c = positions[surface.vertices][surface.faces.T]
     # The length of the cross product is the area, so large faces count more without a weight.
-    across, count = np.cross(b - a, c - a), len(surface.vertices)
+    across = np.cross(b - a, c - a)
+    count = len(surface.vertices)
     sums = (
         np.array([np.bincount(corner, of_axis, count) for of_axis in across.T])
         for corner in surface.faces.T
     )
     normals = sum(sums, np.zeros((3, count))).T
     lengths = np.linalg.norm(normals, axis=1, keepdims=True)
+    has_face = lengths > 0.0
     # Some direction for values of no face, the same everywhere; no viewer shows it.
-    return np.where(lengths > 0.0, normals / np.where(lengths > 0.0, lengths, 1.0), [0.0, 0.0, 1.0])
+    return np.where(has_face, normals / np.where(has_face, lengths, 1.0), [0.0, 0.0, 1.0])
 
 
 @dataclass(frozen=True, eq=False)
@@ -89,19 +91,19 @@ class PreparedAttribute:
     @property
     def at_corners(self) -> Matrix:
         """What `AttributeLook` is given: the values of a decoder at corners, shape (m, 3 c)."""
-        values, declaration = self.values, self.declaration
-        corners = (
-            values[:, None].repeat(3, axis=1)
-            if declaration.domain == FACE
-            else values[self.surface.faces]
-        )
+        declaration = self.declaration
+        if declaration.domain == FACE:
+            corners = self.values[:, None].repeat(3, axis=1)
+        else:
+            corners = self.values[self.surface.faces]
         return painted(SEMANTICS[declaration.semantic], corners)
 
     # A promise of the look must hold with the normals that viewers will have, which depend on decoded positions.
     def normals(self, positions: Matrix) -> Normals:
         """What normals a decoder will have at corners, shape (m, 9), where it has these positions, shape (n, 3)."""
-        recompute = self.declaration.coding == RECOMPUTED
-        values = recomputed(self.surface, positions) if recompute else self.values
+        values = self.values
+        if self.declaration.coding == RECOMPUTED:
+            values = recomputed(self.surface, positions)
         return of_length_1(values[self.surface.faces])
 
     @property
@@ -138,35 +140,40 @@ def _carry(
     place: GivenMesh, faces: Faces, first: bool, swift: int, attribute: Attribute, quality: Quality
 ) -> PreparedAttribute:
     """The first attribute, or the next one."""
-    kind, semantic = KINDS.index(attribute.values.dtype.name), SEMANTICS.index(attribute.semantic)
-    domain, way = DOMAINS.index(attribute.domain), WAYS.index(quality.way)
+    kind = KINDS.index(attribute.values.dtype.name)
+    semantic = SEMANTICS.index(attribute.semantic)
+    domain = DOMAINS.index(attribute.domain)
+    way = WAYS.index(quality.way)
     values = np.ascontiguousarray(attribute.values)
     # All in C, where the order of coding is: corners, seams and integers in one pass, as the C encoder has it, too.
+    form = kind, domain, semantic
     results = place.carry(
-        first,
-        attribute.name,
-        values,
-        kind,
-        domain,
-        semantic,
-        attribute.indices,
-        way,
-        quality.amount,
+        first, attribute.name, values, *form, attribute.indices, way, quality.amount
     )
     numbers, seams, pieces, decoded, own_faces, at, leans, outcome, directed = results
     declaration = Declaration(name=attribute.name, **values_of(Declaration, numbers))
-    surface = Surface(faces if own_faces is None else own_faces, at)
-    what = "" if attribute.semantic in (attribute.name, "generic") else f"{attribute.semantic} "
-    became = (
-        "recomputed from the decoded mesh" if declaration.coding == RECOMPUTED else noted(*outcome)
-    )
-    note = f"{attribute.name}: {what}per {attribute.domain}, {became}"
+    if own_faces is not None:
+        faces = own_faces
+    note = _note(attribute, declaration, outcome)
     tangents = None
     if swift and directed is not None:
         tangents = GivenTangents(*directed, int(quality.amount))
+    surface = Surface(faces, at)
     return PreparedAttribute(
         declaration, seams, surface, pieces, swift, leans, decoded, note, tangents
     )
+
+
+def _note(attribute: Attribute, declaration: Declaration, outcome: tuple[Any, ...]) -> str:
+    """What became of an attribute, in words."""
+    owner = attribute.name
+    semantic = attribute.semantic
+    place = f"per {attribute.domain}"
+    if semantic not in (owner, "generic"):
+        place = f"{semantic} {place}"
+    if declaration.coding == RECOMPUTED:
+        return f"{owner}: {place}, recomputed from the decoded mesh"
+    return f"{owner}: {place}, {noted(*outcome)}"
 
 
 def with_turns(
@@ -187,18 +194,21 @@ def _turned(
     tangents, surface = prepared.tangents, prepared.surface
     normals = _number_of(before, _is_normal)
     coordinates = _number_of(before, _is_coordinate)
-    if tangents is None or normals is None or coordinates is None or (surface.vertices < 0).any():
+    if tangents is None or normals is None or coordinates is None:
+        return prepared
+    if (surface.vertices < 0).any():
         return prepared
     size = 1 << (tangents.bits - 1)
+    normal, coordinate = before[normals], before[coordinates]
     turned = turned_tangents(
         surface.faces,
-        before[normals].surface.faces,
-        before[coordinates].surface.faces,
+        normal.surface.faces,
+        coordinate.surface.faces,
         places,
-        before[coordinates].pieces,
+        coordinate.pieces,
         surface.vertices,
         tangents.rows,
-        before[normals].values.astype(np.float64),
+        normal.values.astype(np.float64),
         tangents.values,
         size,
     )
@@ -225,7 +235,10 @@ def _turned(
 def _number_of(
     attributes: Sequence[PreparedAttribute], holds: Callable[[Declaration], bool]
 ) -> int | None:
-    return next((number for number, a in enumerate(attributes) if holds(a.declaration)), None)
+    for number, attribute in enumerate(attributes):
+        if holds(attribute.declaration):
+            return number
+    return None
 
 
 def _is_normal(declaration: Declaration) -> bool:
@@ -243,12 +256,23 @@ def _is_coordinate(declaration: Declaration) -> bool:
 
 def noted(error: float, step: float, bits: int, zeros: int, scaled: bool) -> str:
     """What became of values, in words."""
-    if not bits:
-        return f"in steps of {step:g}" if step else f"within {error:.3g}" if error else "exact"
-    note = [f"{bits} bits, within {error:.2g} degrees"]
-    return ", ".join(
-        [*note, *[f"{zeros} of no length"] * (zeros > 0), *["all of length one now"] * scaled]
-    )
+    if bits:
+        return _noted_directions(error, bits, zeros, scaled)
+    if step:
+        return f"in steps of {step:g}"
+    if error:
+        return f"within {error:.3g}"
+    return "exact"
+
+
+def _noted_directions(error: float, bits: int, zeros: int, scaled: bool) -> str:
+    """What became of directions, in words; `scaled`: not all were of length one."""
+    note = f"{bits} bits, within {error:.2g} degrees"
+    if zeros > 0:
+        note += f", {zeros} of no length"
+    if scaled:
+        note += ", all of length one now"
+    return note
 
 
 def with_attributes(
@@ -258,11 +282,13 @@ def with_attributes(
     shape = packets.Connectivity | packets.Labels | packets.Order
     # After the faces, which seams need, and before positions, so that a page knows what is coming.
     before = 1 + max(place for place, packet in enumerate(draft.body) if isinstance(packet, shape))
-    head, body = draft.body[:before], draft.body[before:]
+    head = draft.body[:before]
+    body = draft.body[before:]
     # Names and units come first, and images after everything: the shape can be shown while they arrive.
     entries = sorted(metadata.items(), key=lambda entry: isinstance(entry[1], bytes))
     texts = sum(not isinstance(value, bytes) for value in metadata.values())
-    early_metadata, images = map(packets.metadata_of, (entries[:texts], entries[texts:]))
+    early_metadata = packets.metadata_of(entries[:texts])
+    images = packets.metadata_of(entries[texts:])
     declared: list[Packet] = []
     values: list[Packet] = []
     header = draft.header
@@ -282,7 +308,10 @@ def cheaper(
     prepared: PreparedAttribute, places: Levels | None, chunk: int
 ) -> tuple[Declaration, tuple[bytes, ...]]:
     """What an attribute declares, and its chunks."""
-    plain = prepared.plain if chunk == CHUNK else prepared.chunks(None, chunk)
+    if chunk == CHUNK:
+        plain = prepared.plain
+    else:
+        plain = prepared.chunks(None, chunk)
     # Values may follow the positions on a grid, as painted-on coordinates do, or not. Both are tried; one bit tells.
     if places is not None and prepared.leans and prepared.declaration.coding != TANGENTS:
         chunks = prepared.chunks(places, chunk)
@@ -302,15 +331,18 @@ def field_of(
     """The field of the numbers of an attribute, shape (k, pieces), predicted from `places`, shape (n, 3)."""
     leans = int(places is not None or declaration.coding == TANGENTS)
     declared = write_map(entries_of(replace(declaration, leans=leans)))
-    vertices = 1 + int(max(surface.faces.max(initial=0), surface.vertices.max(initial=0)))
+    if places is not None:
+        vertices = len(places)
+    else:
+        vertices = 1 + int(max(surface.faces.max(initial=0), surface.vertices.max(initial=0)))
     field = Field(surface.faces, pieces)
-    field.attribute(
-        declared, vertices if places is None else len(places), surface.vertices, places, swift
-    )
+    field.attribute(declared, vertices, surface.vertices, places, swift)
     return field
 
 
 def write_values(field: Field, count: int) -> bytes:
     """The next `count` values: where there are several payloads, each with its length before it."""
     payloads = field.write(count)
-    return payloads[0] if len(payloads) == 1 else with_lengths([*payloads, b""])
+    if len(payloads) == 1:
+        return payloads[0]
+    return with_lengths([*payloads, b""])

@@ -53,10 +53,11 @@ class Quality:
             raise OptionError(f"an attribute can have 1 to 32 bits, not {self.amount:g}")
 
     def __str__(self) -> str:
-        unit = {"bits": " bits", "share": " %", "rms": " % rms", "angle": " degrees"}.get(
-            self.way, ""
-        )
-        return self.way if self.way in _PLAIN else f"{self.amount:g}{unit}"
+        if self.way in _PLAIN:
+            return self.way
+        units = {"bits": " bits", "share": " %", "rms": " % rms", "angle": " degrees"}
+        unit = units.get(self.way, "")
+        return f"{self.amount:g}{unit}"
 
 
 def parse_quality(text: str) -> Quality:
@@ -118,7 +119,7 @@ def qualities(
         there = ", ".join(attribute.name for attribute in attributes) or "none"
         raise OptionError(f"the mesh has no attribute {unknown[0]!r}; there are: {there}")
 
-    def quality(attribute: Attribute) -> Quality:
+    def choose_quality(attribute: Attribute) -> Quality:
         if attribute.name in asked:
             return parse_quality(asked[attribute.name])
         floats = attribute.values.dtype.kind == "f" and attribute.components == 3
@@ -129,27 +130,28 @@ def qualities(
             return parse_quality(asked["*"])
         if attribute.name in moving:
             return Quality("rms", MOVING[attribute.semantic])
-        if attribute.semantic == "generic" and _are_few_and_whole(attribute.values):
-            return Quality("exact")
-        bits = {
-            "normal": NORMAL_BITS,
-            "color": COLOR_BITS,
-            "texcoord": TEXCOORD_BITS,
-            "generic": GENERIC_BITS,
-        }
-        return (
-            Quality("bits", bits[attribute.semantic][grade])
-            if attribute.values.dtype.kind == "f"
-            else Quality("exact")
-        )
+        return _usual_quality(attribute, grade)
 
-    def meant(attribute: Attribute) -> Quality:
-        asked_for = quality(attribute)
-        still = asked_for.way == "rms" and attribute.name not in moving
-        return Quality("share", asked_for.amount) if still else asked_for
+    pairs = []
+    for attribute in attributes:
+        quality = choose_quality(attribute)
+        if quality.way == "rms" and attribute.name not in moving:
+            quality = Quality("share", quality.amount)
+        if quality.way != "none":
+            pairs.append((attribute, quality))
+    return pairs
 
-    return [
-        (attribute, chosen)
-        for attribute in attributes
-        if (chosen := meant(attribute)).way != "none"
-    ]
+
+def _usual_quality(attribute: Attribute, grade: Grade) -> Quality:
+    """The quality of an attribute of which nobody says anything."""
+    if attribute.values.dtype.kind != "f":
+        return Quality("exact")
+    if attribute.semantic == "generic" and _are_few_and_whole(attribute.values):
+        return Quality("exact")
+    bits = {
+        "normal": NORMAL_BITS,
+        "color": COLOR_BITS,
+        "texcoord": TEXCOORD_BITS,
+        "generic": GENERIC_BITS,
+    }
+    return Quality("bits", bits[attribute.semantic][grade])

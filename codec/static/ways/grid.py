@@ -41,17 +41,24 @@ class Raster:
     @property
     def congruence(self) -> int:
         """The field of the header."""
-        return 0 if self.transforms is None else 35 + len(self.transforms) + 17 * self.whole
+        if self.transforms is None:
+            return 0
+        return 35 + len(self.transforms) + 17 * self.whole
 
     @property
     def fields(self) -> dict[str, Any]:
         """The fields of the header."""
-        coded = {
-            "light": EXACT if self.exact else int(self.light),
+        light = int(self.light)
+        if self.exact:
+            light = EXACT
+        return {
+            "center": self.origin,
+            "scale": self.step,
+            "grid": self.largest,
+            "light": light,
             "congruence": self.congruence,
             "turn": self.turn,
         }
-        return {"center": self.origin, "scale": self.step, "grid": self.largest} | coded
 
 
 UNIT = Raster((0.0, 0.0, 0.0), 1.0, ())
@@ -72,20 +79,11 @@ def grid_field(
 ) -> Field:
     """The field of coded values, shape (n, 3), from 0 to `largest`, and of `exact` floats; a field can give faces."""
     # One kernel codes all three axes of a vertex: each is predicted from the two before it as well.
-    field, ends, grid = (
-        Field(faces, np.ascontiguousarray(coded, np.int32)),
-        np.array(largest, np.int32),
-        grid or UNIT,
-    )
-    field.grid(
-        ends,
-        light,
-        np.array(grid.origin, np.float64),
-        grid.step,
-        exact,
-        grid.transforms,
-        grid.congruence,
-    )
+    field = Field(faces, np.ascontiguousarray(coded, np.int32))
+    ends = np.array(largest, np.int32)
+    grid = grid or UNIT
+    origin = np.array(grid.origin, np.float64)
+    field.grid(ends, light, origin, grid.step, exact, grid.transforms, grid.congruence)
     return field
 
 
@@ -93,9 +91,8 @@ def encode_grid(
     faces: Indices | Field, grid: Raster, coded: Levels, exact: Any = None
 ) -> Iterator[packets.Grid]:
     """Make the packets of coded values, shape (n, 3), 0 to the grid's largest; of `exact` floats in their cells."""
-    return _packets(
-        grid_field(faces, grid.largest, coded, grid.fields["light"], grid, exact), len(coded)
-    )
+    field = grid_field(faces, grid.largest, coded, grid.fields["light"], grid, exact)
+    return _packets(field, len(coded))
 
 
 def encode_going(
@@ -118,7 +115,8 @@ def _packets(field: Field, size: int) -> Iterator[packets.Grid]:
 def sampled_size(faces: Indices | Field, grid: Raster, coded: Levels, light: int = 0) -> int:
     """The bytes of the first coded values."""
     # A part of the mesh is enough to tell which of two grids is better, in a fraction of the time.
-    return sum(map(len, grid_field(faces, grid.largest, coded, light, grid).write(SAMPLE)))
+    field = grid_field(faces, grid.largest, coded, light, grid)
+    return sum(map(len, field.write(SAMPLE)))
 
 
 LAYER_CHUNK = 1 << 15  # vertices of a frame of refinement

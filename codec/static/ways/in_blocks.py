@@ -67,11 +67,9 @@ class RefinementBase:
 
     def about(self, layer: Layer) -> float:
         """About the bytes of blocks, cells and levels of a layer, by the sizes of levels."""
-        return (
-            self.coded
-            + float(np.log2(1.0 + (2.0 * self.offsets / self.expected_steps(layer)) ** 2).sum())
-            / 16.0
-        )
+        doubled_levels = 2.0 * self.offsets / self.expected_steps(layer)
+        bits = float(np.log2(1.0 + doubled_levels**2).sum())
+        return self.coded + bits / 16.0
 
     def known_steps(self, layer: Layer, levels: Levels) -> Matrix:
         """What levels of a layer move each vertex, shape (n, 3), if its heights are those of `levels`, shape (n, 3)."""
@@ -81,7 +79,8 @@ class RefinementBase:
             last_layer, last_heights, last_steps = self._last[0]
             if layer == last_layer and np.array_equal(heights, last_heights):
                 return last_steps
-        steps = self._steps(raised(self.positions, self.frames, heights, layer.step), layer)
+        upright = raised(self.positions, self.frames, heights, layer.step)
+        steps = self._steps(upright, layer)
         self._last[:] = [(layer, heights.copy(), steps)]
         return steps
 
@@ -95,7 +94,8 @@ class RefinementBase:
 
     def within(self, reaches: Matrix, layer: Layer, levels: Levels) -> tuple[Levels, Matrix]:
         """These levels, but the nearest ones where a vertex is farther off than it may be; and their known steps."""
-        levels, steps = levels.copy(), self.known_steps(layer, levels)
+        steps = self.known_steps(layer, levels)
+        levels = levels.copy()
         # It settles after two or three rounds. If ever it did not, the caller would measure what is left.
         for _ in range(9):  # heights that are mended change steps of others
             error = levels * steps - self.offsets
@@ -119,7 +119,9 @@ def refine_blocks(
     """Return the stream of blocks with a layer of levels, shape (n, 3), which bring vertices to where they `moved`."""
     end_phase(len(moved))  # the choice of levels has taken many arrays
     header = replace(blocks.header, refinement=(layer.step, layer.ratio))
-    after = blocks.header.base[0] if blocks.header.base else 0
+    after = 0
+    if blocks.header.base:
+        after, *_ = blocks.header.base
     # After all blocks: a decoder may stop there, and show the base.
     body = (*blocks.body, *encode_layer(prepared.mesh.faces, levels, after))
     return Draft(header, body, prepared.units.back(moved))
@@ -169,25 +171,25 @@ class InBlocks:
         self.missed = sum(not block.met for block in blocks)
         positions = blended(prepared.graph.size, (block.decoded for block in blocks))
         smoothing = options.fixed_smoothing
+        # The filter is chosen after coding, on what was decoded, since it is to undo what coding did.
+        if smoothing is None:
+            smoothing = self._smoothing(positions)
+        else:
+            smoothing = single(smoothing)
         header = Header(
             block_size=prepared.size,
             coefficients=max(block.packet.coefficients for block in blocks),
             center=prepared.units.center,
             scale=prepared.units.scale,
-            # The filter is chosen after coding, on what was decoded, since it is to undo what coding did.
-            smoothing=self._smoothing(positions) if smoothing is None else single(smoothing),
+            smoothing=smoothing,
             **prepared.fields,
             **scheme.fields(),
         )
         decoded = smooth(prepared.graph, positions, header.smoothing)
         body = (*prepared.before_blocks, *(block.packet for block in blocks))
-        draft, positions = (
-            Draft(header, body, prepared.units.back(decoded)),
-            np.ascontiguousarray(decoded),
-        )
-        return RefinementBase(
-            prepared, draft, positions, sum(len(block.packet.data) for block in blocks)
-        )
+        draft = Draft(header, body, prepared.units.back(decoded))
+        coded = sum(len(block.packet.data) for block in blocks)
+        return RefinementBase(prepared, draft, np.ascontiguousarray(decoded), coded)
 
     def _scheme(self, step: float) -> Scheme:
         """How blocks are coded at a step."""
@@ -204,20 +206,24 @@ class InBlocks:
     def _smoothing(self, blended: Matrix) -> float:
         """The amount of smoothing that lowers the error of the options most."""
         graph = self._prepared.graph
+
         # Uphill and downhill from the middle, the same amounts may be met twice.
-        badness = lru_cache(None)(
-            lambda place: self._badness(smooth(graph, blended, SMOOTHING_STEPS[place]))
-        )
+        @lru_cache(None)
+        def badness(place: int) -> float:
+            return self._badness(smooth(graph, blended, SMOOTHING_STEPS[place]))
+
+        places = range(len(SMOOTHING_STEPS))
         place = len(SMOOTHING_STEPS) // 2
         for aside in (1, -1):
-            while 0 <= place + aside < len(SMOOTHING_STEPS) and badness(place + aside) < badness(
-                place
-            ):
+            while place + aside in places and badness(place + aside) < badness(place):
                 place += aside
         return SMOOTHING_STEPS[place]
 
     def _rules(self) -> ChainRules:
         paper = self._options.paper
+        apart = 0
+        if paper.bits is not None and paper.power > 1:
+            apart = min(paper.power, MOST_APART)
         return ChainRules(
             exact=paper.exact_keys,
             key_interval=even_interval(self._options.key_interval, self._prepared.blocks.count),
@@ -227,14 +233,16 @@ class InBlocks:
             shift=single(paper.shift),
             # The paper's mode codes positions and not differences, so nothing is predicted there.
             springs=paper.predict and paper.bits is None,
-            apart=min(paper.power, MOST_APART) if paper.bits is not None and paper.power > 1 else 0,
+            apart=apart,
             overrides=self._overrides,
         )
 
     def _width(self, step: float) -> int:
         """c: the option's value, or as many coefficients as are worth coding at this step."""
         options, size = self._options, self._prepared.size
-        most = size if options.paper.doi is None else self._widest
+        most = size
+        if options.paper.doi is not None:
+            most = self._widest
         if options.coefficients is not None:
             return min(options.coefficients, most)
         if options.keep is not None:
@@ -250,39 +258,47 @@ class InBlocks:
     @cached_property
     def _eps(self) -> tuple[float, float] | None:
         """eps_l and eps_h in BSM units."""
-        if doi := self._options.paper.doi:
-            edge = mean_edge_length(self._prepared.positions, self._prepared.mesh.faces)
-        return doi and (edge * doi[0], edge * doi[1])
+        doi = self._options.paper.doi
+        if not doi:
+            return None
+        edge = mean_edge_length(self._prepared.positions, self._prepared.mesh.faces)
+        return edge * doi[0], edge * doi[1]
 
     @property
     def first_step(self) -> float:
         """The step, or eps_h, that a search begins with."""
-        return self._eps[1] if self._eps and self._options.paper.bits else self._options.first_step
+        if self._eps and self._options.paper.bits:
+            _, high = self._eps
+            return high
+        return self._options.first_step
 
     def _sizing(self, width: int, step: float) -> Sizing:
-        eps = (
-            (step * self._eps[0] / self._eps[1], step)
-            if self._eps and self._options.paper.bits
-            else self._eps
-        )
-        return Sizing(width, min(width, max(1, round(PAPER_FRACTION * self._prepared.size))), eps)
+        eps = self._eps
+        if eps and self._options.paper.bits:
+            low, high = eps
+            eps = step * low / high, step
+        first = max(1, round(PAPER_FRACTION * self._prepared.size))
+        return Sizing(width, min(width, first), eps)
 
     def _packed(self, bits: int, rules: ChainRules, step: float) -> Packed:
         """With the step that makes the most of a fixed number of bits: it takes a pass over all blocks."""
-        blocks, positions, width = self._prepared.blocks, self._prepared.positions, self._width(0.0)
-        charge, sizing = patience(self._options.limits, len(positions)), self._sizing(width, step)
+        blocks, positions = self._prepared.blocks, self._prepared.positions
+        width = self._width(0.0)
+        charge = patience(self._options.limits, len(positions))
+        sizing = self._sizing(width, step)
 
         def largest(indices: range) -> Matrix:
             """Largest coefficient in the first row of any block of a chain, and in all others."""
-            chain, sizes, largest_yet = Chain(rules, blocks), sizing.begin(), np.zeros(2)
+            chain, sizes = Chain(rules, blocks), sizing.begin()
+            largest_yet = np.zeros(2)
             for index in indices:
-                block_positions = positions[chain.begin(index)[0]]
+                vertices, _, _ = chain.begin(index)
+                block_positions = positions[vertices]
                 dictionary, coefficients = offer(chain, block_positions, width, sizes, charge)
                 chain.commit(dictionary.shape[1], block_positions)
                 magnitudes = np.abs(coefficients)
-                largest_yet = np.maximum(
-                    largest_yet, [magnitudes[:1].max(), magnitudes[1:].max(initial=0.0)]
-                )
+                first, others = magnitudes[:1].max(), magnitudes[1:].max(initial=0.0)
+                largest_yet = np.maximum(largest_yet, [first, others])
             return largest_yet
 
         chains = rules.chains(blocks.count)
