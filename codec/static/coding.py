@@ -27,11 +27,10 @@ class Packed:
     ) -> tuple[int, bytes, Matrix]:
         """c_i, the payload of coefficients, shape (c, 3), and the decoded positions of a chain's present block."""
         # Offset by half the range, as the law has it: the packed integers then need no sign.
-        levels, half = (
-            np.rint(coefficients / self._steps(len(coefficients))).astype(np.int64),
-            1 << (self.bits - 1),
-        )
-        data = pack_coefficients(np.clip(levels + half, 0, 2 * half - 1), self.bits)
+        levels = np.rint(coefficients / self._steps(len(coefficients))).astype(np.int64)
+        half = 1 << (self.bits - 1)
+        shifted = np.clip(levels + half, 0, 2 * half - 1)
+        data = pack_coefficients(shifted, self.bits)
         return len(levels), data, self.positions(prediction, dictionary, levels)
 
     def read(self, data: bytes, count: int) -> Integers:
@@ -85,7 +84,8 @@ class Scheme:
 
     def fields(self) -> dict[str, Any]:
         """The fields of the header."""
-        rules, coding = self.rules, self.coding
+        rules = self.rules
+        coding = self.coding
         paper = Constants(
             bits=coding.bits,
             coarser=coding.coarser,

@@ -224,7 +224,8 @@ class Encoder:
     def draft(self, progress: Progress | None = None) -> Draft:
         """Return the stream of the options, without a target."""
         _ = self._input.carried  # raises errors of attributes first
-        promise, nearing = self.options.promise, self._begun(progress)
+        promise = self.options.promise
+        nearing = self._begun(progress)
         if promise is None:
             self._input, draft = complete(self._input, self._bare(nearing))
             return self._verified(draft, nearing)
@@ -268,7 +269,8 @@ class Encoder:
         if target is None:
             raise OptionError("no target to search for")
         _ = self._input.carried  # raises errors of attributes first
-        nearing, contract = self._begun(progress), self.options.promise
+        nearing = self._begun(progress)
+        contract = self.options.promise
         if self.options.sets_coding:
             attempt = self._at_step(target, nearing)
         elif target.shrinks_with_step:
@@ -336,8 +338,10 @@ class Encoder:
     ) -> tuple[Draft | None, Contract | None]:
         """Take attributes as fine as leave room for the shape; return the smallest stream, and the contract if that
         fits."""
-        promise, met = self.options.promise, None
-        loosest, contracts = Contract(WIDEST), list[Contract]()
+        promise = self.options.promise
+        met = None
+        loosest = Contract(WIDEST)
+        contracts = list[Contract]()
         if promise is not None:
             loosest, contracts = promise, [promise]
         if sender.carried:
@@ -365,7 +369,8 @@ class Encoder:
         self, target: Target, sender: Sent, smaller: Draft, most: float, nearing: Nearing
     ) -> TargetError:
         """The error of a size that is too small, with the least one, and what may help."""
-        promise, least = self.options.promise, self._judged(smaller)
+        promise = self.options.promise
+        least = self._judged(smaller)
         text = f"{target.worded(target.value)} at most cannot be reached"
         had = target.worded(target.reached(least))
         if promise is None:
@@ -385,7 +390,8 @@ class Encoder:
 
     def _at_step(self, target: Target, nearing: Nearing) -> Attempt:
         """Blocks, coded as the options say, at the step that meets a target."""
-        first, finest = self._spectral.first_step, smallest_step(self._input.prepared.size)
+        first = self._spectral.first_step
+        finest = smallest_step(self._input.prepared.size)
         return search_step(lambda step: self.attempt(step, nearing.within()), target, first, finest)
 
     def attempt(self, step: float, progress: Progress | None = None) -> Attempt:
@@ -423,7 +429,8 @@ class Encoder:
         original = AsGiven(self._input.source, self._input.joined, self._input.prepared)
         end_phase(draft.header.vertices)
         with as_of_decoders(self.options.limits):
-            limits, threads = NAMED_LIMITS[self.options.limits](), self.options.threads
+            limits = NAMED_LIMITS[self.options.limits]()
+            threads = self.options.threads
             carried = with_turns(self._input.carried, draft.places)
             self._attribute_notes = tuple(attribute.note for attribute in carried)
             self.decoded = verify(

@@ -237,7 +237,8 @@ class Prepared:
     @cached_property
     def size(self) -> int:
         """Vertices of the largest block, n_d."""
-        parts, vertices = self.partition.parts, self.graph.size
+        parts = self.partition.parts
+        vertices = self.graph.size
         size = block_size(self.partition, self.parts.overlap)
         # Decoders refuse more copies, so that a short stream cannot ask for much memory.
         if parts * size > constant("MOST_COPIES") * vertices + constant("FREE_COPIES"):
@@ -320,29 +321,36 @@ def prepare(
     coding_order = connectivity.vertex_order.astype(np.int64)
     coding_faces = np.ascontiguousarray(connectivity.face_order, np.int32)
     ordered = TriangleMesh(sealed(mesh.positions[coding_order]), sealed(connectivity.faces))
-    order: tuple[packets.Order, ...] = ()
-    vertex_order, face_order = coding_order, coding_faces
-    if keep_order:
-        order = (packets.Order(joined.coding.order(joined.original_positions)),)
-        # Such a stream is decoded in the given order, so for callers nothing has moved.
-        vertex_order = np.arange(len(coding_order))
-        face_order = np.arange(len(mesh.faces), dtype=np.int32)
-    return Prepared(
+    prepared = Prepared(
         mesh=ordered,
         graph=graph_of_faces(ordered.faces, len(coding_order)),
         parts=parts,
         units=units_of(ordered),
         connectivity=packets.Connectivity(connectivity.payload),
         repeats=connectivity.repeats,
-        order=order,
+        order=(),
         coding_order=coding_order,
-        vertex_order=vertex_order,
-        face_order=face_order,
+        vertex_order=coding_order,
+        face_order=coding_faces,
         coding_faces=coding_faces,
         first_corners=connectivity.first_corners,
         joined_faces=mesh.faces,
         light=light,
         congruence=congruence,
+    )
+    if keep_order:
+        return _in_given_order(prepared, joined)
+    return prepared
+
+
+def _in_given_order(prepared: Prepared, joined: JoinedMesh) -> Prepared:
+    """The same, with the order in the stream: it is decoded in the given one, so for callers nothing has moved."""
+    order = joined.coding.order(joined.original_positions)
+    return replace(
+        prepared,
+        order=(packets.Order(order),),
+        vertex_order=np.arange(len(prepared.coding_order)),
+        face_order=np.arange(len(prepared.face_order), dtype=np.int32),
     )
 
 

@@ -98,7 +98,8 @@ class Contract:
             return ""
         noun, question = "", "is that its unit?"
         if unit:
-            noun, question = f" {unit}", f"is its unit {unit}?"
+            noun = f" {unit}"
+            question = f"is its unit {unit}?"
         share = f"{self.farthest / diagonal:.0%} of this mesh's size ({diagonal:.3g}{noun})"
         text = f"{self.farthest:.3g}{noun} is {share}: {question}"
         if math.isinf(self.by_part):
@@ -238,7 +239,8 @@ def secant(
     slack: float = SLACK,
 ) -> None:
     """Try numbers, to come to about the largest one whose excess is at most 0."""
-    low, high = math.log(least), math.log(most)
+    low = math.log(least)
+    high = math.log(most)
     sides = dict[bool, tuple[float, float]]()
     at = min(max(math.log(first), low), high)
     before = math.nan

@@ -84,7 +84,8 @@ class AsGiven:
             differs = (np.roll(actual, turn, axis=1) != expected).any(
                 axis=tuple(range(1, actual.ndim))
             )
-            expected, actual = expected[differs], actual[differs]
+            expected = expected[differs]
+            actual = actual[differs]
         require(not len(expected), "the decoded order of vertices or faces differs")
 
 
@@ -149,7 +150,8 @@ def _require_attribute(
         is_finite = bool(np.isfinite(attribute.values).all())
         require(is_finite, f"{name} is not finite after decoding")
         return
-    actual, expected = attribute.values, carried.values
+    actual = attribute.values
+    expected = carried.values
     if declared.domain != FACE:
         rows = attribute.indices if attribute.indices is not None else faces
         actual = actual[original.in_coding_order(rows)]

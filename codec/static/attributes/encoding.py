@@ -191,7 +191,8 @@ def _turned(
     prepared: PreparedAttribute, before: Sequence[PreparedAttribute], places: Levels
 ) -> PreparedAttribute:
     """Tangents as turns about their normals, from where the texture points; others as they are."""
-    tangents, surface = prepared.tangents, prepared.surface
+    tangents = prepared.tangents
+    surface = prepared.surface
     normals = _number_of(before, _is_normal)
     coordinates = _number_of(before, _is_coordinate)
     if tangents is None or normals is None or coordinates is None:
@@ -199,7 +200,8 @@ def _turned(
     if (surface.vertices < 0).any():
         return prepared
     size = 1 << (tangents.bits - 1)
-    normal, coordinate = before[normals], before[coordinates]
+    normal = before[normals]
+    coordinate = before[coordinates]
     turned = turned_tangents(
         surface.faces,
         normal.surface.faces,
@@ -281,7 +283,8 @@ def with_attributes(
     """A draft that carries attributes, `chunk` values a frame, and metadata; images and other bytes come last."""
     shape = packets.Connectivity | packets.Labels | packets.Order
     # After the faces, which seams need, and before positions, so that a page knows what is coming.
-    before = 1 + max(place for place, packet in enumerate(draft.body) if isinstance(packet, shape))
+    places = [place for place, packet in enumerate(draft.body) if isinstance(packet, shape)]
+    before = 1 + places[-1]
     head = draft.body[:before]
     body = draft.body[before:]
     # Names and units come first, and images after everything: the shape can be shown while they arrive.
@@ -334,7 +337,9 @@ def field_of(
     if places is not None:
         vertices = len(places)
     else:
-        vertices = 1 + int(max(surface.faces.max(initial=0), surface.vertices.max(initial=0)))
+        last_value = surface.faces.max(initial=0)
+        last_vertex = surface.vertices.max(initial=0)
+        vertices = 1 + int(max(last_value, last_vertex))
     field = Field(surface.faces, pieces)
     field.attribute(declared, vertices, surface.vertices, places, swift)
     return field

@@ -187,7 +187,10 @@ class Sent:
 
     def painted(self, decoded: Positions) -> float:
         """The largest distance of colors and texture coordinates whose quality the look decides."""
-        return max(look.distance(decoded, self.carried[at].at_corners) for at, look in self.looks)
+        return max(self._distances_of_looks(decoded))
+
+    def _distances_of_looks(self, decoded: Positions) -> list[float]:
+        return [look.distance(decoded, self.carried[at].at_corners) for at, look in self.looks]
 
     @cached_property
     def shown_normals(self) -> int | None:
@@ -228,15 +231,13 @@ class Sent:
 
     def measured(self, draft: Draft, contract: Contract) -> tuple[str, float | None, str]:
         """Return the bounds that a draft with its attributes breaks, its look distance, and the bound that binds."""
-        bounds, decoded = Bounds(self.measures, contract), draft.decoded
+        bounds = Bounds(self.measures, contract)
+        decoded = draft.decoded
         trial = trial_of(self.prepared, draft)
         metric = bounds.metric
         if metric is None:
             return bounds.broken_by(trial), None, bounds.binding(trial)
-        distances = [metric.bare(decoded).distance]
-        distances += [
-            look.distance(decoded, self.carried[at].at_corners) for at, look in self.looks
-        ]
+        distances = [metric.bare(decoded).distance, *self._distances_of_looks(decoded)]
         bound = others = max(*distances, metric.distance(decoded))
         number = self.shown_normals
         if number is not None:
@@ -282,9 +283,10 @@ def smallest(sender: Sent, contract: Contract, progress: Nearing | None) -> tupl
 def _roughened(sender: Sent, look: float) -> Sent:
     """Make colors and texture coordinates without a requested quality as coarse as the look allows."""
     rough = sender
+    requested = dict(sender.options.attributes)
     for at, (attribute, quality) in enumerate(sender.qualities):
-        chosen = {"*", attribute.name} & {*dict(sender.options.attributes)}
-        if not chosen and quality.way in ("bits", "exact") and has_look(attribute):
+        is_chosen = "*" in requested or attribute.name in requested
+        if not is_chosen and quality.way in ("bits", "exact") and has_look(attribute):
             rough = _roughen(rough, at, attribute, ATTRIBUTE_SHARE[attribute.semantic] * look)
     if not rough.looks:
         return sender
@@ -296,11 +298,13 @@ def _roughen(sender: Sent, at: int, attribute: Attribute, most: float) -> Sent:
     """Make an attribute as coarse as takes at most some of the look."""
     # A checker shows nothing of a texture that repeats or is sharper than it: no place moves by more than 1/4096.
     extent = float(np.ptp(attribute.values, axis=0).max(initial=0.0))
-    least = min(math.ceil(math.log2(max(2048.0 * extent, 2.0))), MOST_BITS)
+    places = max(2048.0 * extent, 2.0)
+    least = min(math.ceil(math.log2(places)), MOST_BITS)
     steps = [Quality("bits", bits) for bits in range(least, MOST_BITS + 1)]
     if attribute.semantic == "color":
         steps = _color_qualities(attribute)
-    mesh, threads = sender.prepared.mesh, sender.options.threads
+    mesh = sender.prepared.mesh
+    threads = sender.options.threads
 
     def carry_at(step: int) -> PreparedAttribute:
         return sender.carry_with(at, steps[step])[at]
@@ -365,21 +369,25 @@ def _look_fits(
 
 def _shaded(sender: Sent, contract: Contract) -> tuple[Sent, Draft]:
     """The smallest stream that keeps a contract; normals without a quality get as many bits as the look needs."""
-    bare, metric, free = sender.search.smallest(contract), sender.measures.look, sender.free_normals
+    bare = sender.search.smallest(contract)
+    metric = sender.measures.look
+    free = sender.free_normals
     if free is None or metric is None or contract.look == math.inf:
         return complete(sender, bare, contract.look)
-    decoded, most = bare.decoded, contract.look
+    decoded = bare.decoded
+    most = contract.look
 
     def share_of_look(carried: tuple[PreparedAttribute, ...], positions: Positions) -> float:
-        return max(metric.shaded(positions, carried[free].normals(positions))) / most
+        normals = carried[free].normals(positions)
+        return max(metric.shaded(positions, normals)) / most
 
     bit_counts = range(LEAST_NORMAL_BITS, MOST_NORMAL_BITS + 1)
     finer = [*(Quality("bits", bits) for bits in bit_counts), Quality("exact")]
 
-    def enough(at: int) -> bool:
+    def is_enough(at: int) -> bool:
         return share_of_look(sender.carry_with(free, finer[at]), decoded) <= 1.0
 
-    coarsest = finer[bisect_left(range(len(finer) - 1), True, key=enough)]
+    coarsest = finer[bisect_left(range(len(finer) - 1), True, key=is_enough)]
     cheaper = sender.but(carried=sender.carry_with(free, coarsest))
     draft = cheaper.completed(bare)
     recomputed = sender.but(carried=sender.carry_with(free, Quality("recompute")))
@@ -404,5 +412,9 @@ def _shaded(sender: Sent, contract: Contract) -> tuple[Sent, Draft]:
 
 def kept_whole(colors: Attribute) -> bool:
     """Whether colors are few, and tell parts apart, or let shine through what no picture shows."""
-    see_through = colors.components in (2, 4) and np.ptp(colors.values[:, -1]) > 0
-    return bool(see_through or row_numbers(colors.values).max(initial=0) < 1 << 8)
+    if colors.components in (2, 4):
+        opacity = colors.values[:, -1]
+        if np.ptp(opacity) > 0:
+            return True
+    numbers = row_numbers(colors.values)
+    return bool(numbers.max(initial=0) < 1 << 8)

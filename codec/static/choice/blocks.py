@@ -43,7 +43,9 @@ class OnCells:
     """Blocks on the cells of a mesh, spread as takes the fewest bytes."""
 
     def __init__(self, prepared: Prepared, options: EncodeOptions, bounds: Bounds) -> None:
-        self._prepared, self._options, self._measures = prepared, options, bounds.measures
+        self._prepared = prepared
+        self._options = options
+        self._measures = bounds.measures
 
     def below(self, step: float) -> RefinementBase:
         """Return the blocks for levels of about a step."""
@@ -51,7 +53,8 @@ class OnCells:
         spreads, share_of_time = self._spreads(step)
         within = self._measures.progress.within(share_of_time)
         smoothings = len({spread.smoothing for spread in spreads})
-        done, total = 0, MOST_STEPS * len(spreads) + (PLACING + COUPLING) * smoothings
+        done = 0
+        total = MOST_STEPS * len(spreads) + (PLACING + COUPLING) * smoothings
         best: tuple[InCells, LeveledCells] | None = None
         least = math.inf
         in_cells: InCells | None = None
@@ -70,7 +73,8 @@ class OnCells:
                 done += 1
                 within(done, total)
                 if size < least:
-                    best, least = (in_cells, cells), size
+                    best = (in_cells, cells)
+                    least = size
                 # From the finest step of cells on, sizes fall to the best one and rise after it.
                 if size > before:
                     break
@@ -91,7 +95,8 @@ class OnVertices:
     """Blocks on all vertices of a mesh, which take decoders longer."""
 
     def __init__(self, prepared: Prepared, options: EncodeOptions, bounds: Bounds) -> None:
-        spectral, progress = InBlocks(prepared, options, BROADEST), bounds.measures.progress
+        spectral = InBlocks(prepared, options, BROADEST)
+        progress = bounds.measures.progress
         self.least = 1.01 * smallest_step(prepared.size)
         self.at = lru_cache(2)(lambda step: spectral.base(step, progress.within()))
 
@@ -110,8 +115,11 @@ class Plain:
     name = "blocks only"
 
     def __init__(self, bounds: Bounds, blocks: OnVertices, first: float) -> None:
-        self._bounds, self._blocks = bounds, blocks
-        self.least, self.most, self.first = blocks.least, 0.5, blocks.step_below(first)
+        self._bounds = bounds
+        self._blocks = blocks
+        self.least = blocks.least
+        self.most = 0.5
+        self.first = blocks.step_below(first)
 
     @property
     def ladder(self) -> Matrix:
@@ -161,13 +169,15 @@ class Refined:
         # Half a diagonal of steps is within the least reach, so that all vertices can be.
         self._diagonal = 2.0 * float(bounds.reaches.min())
         self.least = LEAST
-        self.most = max(min(COARSEST, self._diagonal / math.sqrt(3.0)), LEAST)
+        widest = min(COARSEST, self._diagonal / math.sqrt(3.0))
+        self.most = max(widest, LEAST)
         self._below = lru_cache(2)(blocks.below)
 
     @cached_property
     def first(self) -> float:
         # Of the look that a usual layer takes, steps along tangents take a little less than those along normals.
-        step = self._bounds.first_step / math.hypot(1.0, 0.93 * self.ratio / RATIO)
+        wider = math.hypot(1.0, 0.93 * self.ratio / RATIO)
+        step = self._bounds.first_step / wider
         return min(max(step, self.least), self.most)
 
     @property
@@ -184,18 +194,21 @@ class Refined:
             return Estimate(rough, DOUBT, saving)
         base = self._base(self.first)
         size = base.about(Layer(single(self.first), self.ratio))
-        finer = base.about(Layer(single(self.first / math.e), self.ratio))
+        finer_layer = Layer(single(self.first / math.e), self.ratio)
+        finer = base.about(finer_layer)
         estimate = (size + len(self._prepared.connectivity.data)) / CODED
         return Estimate(estimate, DOUBT, min(saving, (finer - size) / CODED))
 
     def _bend(self) -> float:
         """How far vertices are from the mean of their neighbors, as a root mean square."""
-        graph, positions = self._prepared.graph, self._prepared.positions
+        graph = self._prepared.graph
+        positions = self._prepared.positions
         degrees = np.diff(graph.offsets)
         starts = graph.offsets[:-1]
         sums = [np.add.reduceat(column[graph.neighbors], starts) for column in positions.T]
-        bends = positions - np.column_stack(sums) / degrees[:, None]
-        return math.sqrt(float(squares_of(bends).mean()))
+        means = np.column_stack(sums) / degrees[:, None]
+        squares = squares_of(positions - means)
+        return math.sqrt(float(squares.mean()))
 
     def at(self, step: float) -> Trial:
         """Return the trial of a step."""
@@ -218,11 +231,13 @@ class Refined:
         for _ in range(UNFOLDED):
             positions = base.moved(layer, levels, steps)
             directions = base.directions(steps).reshape(-1, 9)
-            shaper, reach = self._bounds.measures.shaper, self._near(steps)
+            shaper = self._bounds.measures.shaper
+            reach = self._near(steps)
             unfolded = shaper.unfold(positions, levels, directions, reach)
             if unfolded is None:
                 break
-            levels, steps = unfolded, base.known_steps(layer, unfolded)
+            levels = unfolded
+            steps = base.known_steps(layer, unfolded)
         return self._leveled(step, base, layer, levels, steps)
 
     def _leveled(
@@ -234,15 +249,17 @@ class Refined:
 
     def _near(self, steps: Matrix) -> Matrix:
         """How far vertices may be brought from their places by steps, shape (n, 3)."""
-        widest = np.maximum(steps[:, 0], steps[:, 1])
-        return np.asarray(np.minimum(self._bounds.reaches, SPIKE * widest))
+        heights, shifts = steps[:, 0], steps[:, 1]
+        reach = SPIKE * np.maximum(heights, shifts)
+        return np.asarray(np.minimum(self._bounds.reaches, reach))
 
     def _evened(self, step: float, base: RefinementBase) -> tuple[Layer, Levels, Matrix]:
         """Levels that are worth their bits; and their known steps."""
         reaches = self._bounds.reaches
         room = (self._diagonal / step) ** 2 - 1.0
         widest_ratio = math.sqrt(max(room, 0.0) / 2.0)
-        layer = Layer(single(step), min(max(widest_ratio, 1.0), self.ratio))
+        ratio = min(max(widest_ratio, 1.0), self.ratio)
+        layer = Layer(single(step), ratio)
         steps = base.expected_steps(layer)
         expected = partial(base.known_steps, layer)
         farthest = self._near(steps)
@@ -266,7 +283,8 @@ class Refined:
             if not len(wrong):
                 break
             levels = levels.copy()
-            levels[wrong] = np.rint(base.offsets[wrong] / steps[wrong])
+            nearest = base.offsets[wrong] / steps[wrong]
+            levels[wrong] = np.rint(nearest)
             steps = base.known_steps(layer, levels)
         return layer, levels, steps
 

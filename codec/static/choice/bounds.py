@@ -64,7 +64,8 @@ class Measures:
         self.shaper = Shaper(self.original, prepared.graph)
         self.reaches = lru_cache(1)(partial(reaches, prepared))
         self.gaps = lru_cache(1)(partial(gaps, prepared))
-        self._threads, self.drawn = threads, drawn
+        self._threads = threads
+        self.drawn = drawn
         self.normals = normals
         self.progress = progress or Nearing(None)
         self.unseen = ""  # why there is no look
@@ -95,7 +96,8 @@ class Measures:
             values = self.normals.reshape(-1, 3)
             normals.append(Attribute("normal", values, "corner", "normal"))
         # As given and as decoded, to the last bit: in BSM units, rounding may show other shades.
-        mesh = TriangleMesh(self.prepared.mesh.positions, self.prepared.mesh.faces, tuple(normals))
+        original = self.prepared.mesh
+        mesh = TriangleMesh(original.positions, original.faces, tuple(normals))
         try:
             if self.drawn is not None:
                 return self.drawn.against(mesh)
@@ -111,7 +113,8 @@ def count_flat(positions: Matrix, faces: Faces) -> int:
     """Return how many faces have no area, within rounding."""
     areas = face_geometry(positions, faces).areas
     # Most faces are too large for any side that a face of this mesh may have.
-    longest = 2.0 * float(np.square(extent_of(positions)).sum())
+    extent = extent_of(positions)
+    longest = 2.0 * float(np.square(extent).sum())
     small = areas <= FLAT * longest
     corners = positions[faces[small]]
     sides = corners - np.roll(corners, 1, axis=1)
@@ -153,7 +156,8 @@ class Bounds:
         if trial.settled:
             return folds > shaper.most_folds
         # On grids, slivers of parts fold where nothing shows.
-        return folds > max(SLIVERS * len(self.measures.prepared.mesh.faces), 1.0)
+        faces = self.measures.prepared.mesh.faces
+        return folds > max(SLIVERS * len(faces), 1.0)
 
     def loses_faces(self, positions: Matrix) -> bool:
         """Whether more faces lose their areas than may: up to a look of 0.5 none, up to 1 one in 200."""
@@ -201,7 +205,8 @@ class Bounds:
     @cached_property
     def first_step(self) -> float:
         """Return a step at which rounding uses up about the whole bound, in BSM units."""
-        contract, positions = self.contract, self.measures.prepared.positions
+        contract = self.contract
+        positions = self.measures.prepared.positions
         widest = COARSEST
         if self.metric is not None:
             widest = min(self.usual_step * contract.look / self._aim, COARSEST)
@@ -216,14 +221,17 @@ class Bounds:
     @cached_property
     def usual_step(self) -> float:
         """About the step at which rounding has a look of 1, in BSM units, whatever is promised."""
-        step, metric = min(SEEN * self.measures.shaper.mean_edge, COARSEST), self.metric
+        step = min(SEEN * self.measures.shaper.mean_edge, COARSEST)
+        metric = self.metric
         if metric is None:
             return step
         prepared = self.measures.prepared
         for _ in range(2):
-            placed = prepared.units.back(np.rint(prepared.positions / step) * step)
+            rounded = np.rint(prepared.positions / step) * step
+            placed = prepared.units.back(rounded)
             wider = self._aim / max(metric.glance(placed), LEAST)
-            step = min(step * min(max(wider, 0.1), 10.0), COARSEST)
+            step *= min(max(wider, 0.1), 10.0)
+            step = min(step, COARSEST)
             if 0.5 < wider < 2.0:
                 break
         return step
@@ -241,7 +249,8 @@ class Bounds:
         """The bounds that the best positions broke that were seen."""
         if self._best is None:
             return "nothing"
-        contract, (farther, angle, visual, look) = self.contract, self._best
+        contract = self.contract
+        (farther, angle, visual, look) = self._best
         return contract.worded(
             farther, angle * contract.angle, look * contract.look, visual * contract.visual
         )
@@ -252,12 +261,14 @@ class Bounds:
         """Shares of the bounds on distances, on the angle of normals, on the visual error, and on the look."""
         if look is None and self._last is not None and self._last[0]() is candidate:
             return self._last[1]
-        distance, decoded = look or 0.0, self._decoded(candidate)
+        distance = look or 0.0
+        decoded = self._decoded(candidate)
         if look is None and self.metric is not None:
             distance = self.metric.with_room(decoded)
             if distance <= self.contract.look:
                 distance = max(distance, self.measures.painted(decoded))
-        shares = (*self._measured(candidate.positions), distance / self.contract.look)
+        others = self._measured(candidate.positions)
+        shares = (*others, distance / self.contract.look)
         if look is None:
             self._last = ReferenceType(candidate), shares
         if self._best is None or shares < self._best:
@@ -266,10 +277,13 @@ class Bounds:
 
     def _measured(self, positions: Matrix) -> tuple[float, float, float]:
         """Shares of the bounds that are not in pictures."""
-        contract, measures = self.contract, self.measures
+        contract = self.contract
+        measures = self.measures
         off = positions - measures.prepared.positions
-        shares = np.sqrt(squares_of(off)) / np.maximum(self.reaches, np.finfo(np.float64).tiny)
-        farther = float(np.append(shares, self.gaps.closed(off)).max(initial=0.0))
+        distances = np.sqrt(squares_of(off))
+        reaches = np.maximum(self.reaches, np.finfo(np.float64).tiny)
+        shares = np.append(distances / reaches, self.gaps.closed(off))
+        farther = float(shares.max(initial=0.0))
         angle = visual = 0.0
         if contract.angle < ANY_ANGLE:
             angle = measures.original.angle(positions) / contract.angle
@@ -286,17 +300,21 @@ class Bounds:
 
 def reaches(prepared: Prepared, contract: Contract) -> Matrix:
     """How far each vertex may come to lie from its place, in BSM units, shape (n,)."""
-    diagonal, unit, part = prepared.mesh.diagonal, prepared.units.scale, prepared.components
+    diagonal = prepared.mesh.diagonal
+    unit = prepared.units.scale
+    part = prepared.components
     farthest = contract.reach(diagonal, unit)
     by_part = contract.by_part * diagonal / unit
     if not by_part < math.inf:
         return np.full(len(part), farthest)
     order = np.argsort(part, kind="stable")
-    starts = np.cumsum([0, *np.bincount(part)[:-1]])
+    sizes = np.bincount(part)
+    starts = np.cumsum([0, *sizes[:-1]])
     positions = prepared.positions[order]
     low = np.minimum.reduceat(positions, starts)
     high = np.maximum.reduceat(positions, starts)
-    diagonals = np.sqrt(squares_of(high - low)) * unit / (diagonal or 1.0)
+    diagonals = np.sqrt(squares_of(high - low))
+    diagonals = diagonals * unit / (diagonal or 1.0)
     shares = diagonals.clip(FINEST_PART, 1.0)[part]
     return np.asarray(np.minimum(farthest, by_part * shares))
 
@@ -310,14 +328,17 @@ class Gaps(NamedTuple):
 
     def closed(self, moved: Matrix) -> Matrix:
         """How much of each gap moves of vertices, shape (n, 3), close, over what may be, shape (k,)."""
-        return np.asarray((self.closing * moved[self.ends]).sum(axis=(1, 2)) / (1.0 - FINEST_PART))
+        closed = (self.closing * moved[self.ends]).sum(axis=(1, 2))
+        return np.asarray(closed / (1.0 - FINEST_PART))
 
     def kept(self, reach: Matrix, moved: Matrix | None = None) -> Matrix:
         """How far vertices may be, of `reach`, so that no gap closes, or none of those that `moved` would close."""
-        ends, directions = self.ends, self.closing[:, 0]
+        ends = self.ends
+        directions = self.closing[:, 0]
         if moved is not None:
             wrong = self.closed(moved) > 1.0
-            ends, directions = ends[wrong], directions[wrong]
+            ends = ends[wrong]
+            directions = directions[wrong]
         half = (1.0 - FINEST_PART) / 2.0 / np.sqrt(squares_of(directions))
         reach = reach.copy()
         np.minimum.at(reach, ends, half[:, None])
@@ -326,35 +347,46 @@ class Gaps(NamedTuple):
 
 def gaps(prepared: Prepared, contract: Contract) -> Gaps:
     """Where parts are near each other, but do not touch."""
-    part, positions = prepared.components, prepared.positions
+    part = prepared.components
+    positions = prepared.positions
     reach = 2.0 * contract.by_part * prepared.mesh.diagonal / prepared.units.scale
     count = int(part.max(initial=0)) + 1
     if not 1 < count <= MOST_PARTS or not reach < math.inf:
-        return Gaps(np.empty((0, 4), np.int64), np.empty((0, 4, 3)))
+        no_ends = np.empty((0, 4), np.int64)
+        return Gaps(no_ends, np.empty((0, 4, 3)))
     closest = _closest_points(prepared, reach, count)
     ends = closest[:, :4].astype(np.int64)
-    weights = np.insert(closest[:, 4:], 0, -1.0, axis=1)[:, :, None]
+    weights = np.insert(closest[:, 4:], 0, -1.0, axis=1)
+    weights = weights[:, :, None]
     across = -(weights * positions[ends]).sum(axis=1)
-    squares, parts = squares_of(across), part[ends[:, :2]]
+    squares = squares_of(across)
+    parts = part[ends[:, :2]]
     nearest = np.full(count, np.inf)
-    np.minimum.at(nearest, parts, np.sqrt(squares)[:, None])
+    distances = np.sqrt(squares)
+    np.minimum.at(nearest, parts, distances[:, None])
     touching = FINEST_PART**2 * reach  # none of such parts is before the other
-    free = (squares < reach**2) & (nearest[parts].max(axis=1) >= touching)
-    closing = (weights * across[:, None])[free] / squares[free, None, None]
-    return Gaps(ends[free], closing)
+    is_apart = nearest[parts].max(axis=1) >= touching
+    free = (squares < reach**2) & is_apart
+    directions = (weights * across[:, None])[free]
+    return Gaps(ends[free], directions / squares[free, None, None])
 
 
 def _closest_points(prepared: Prepared, reach: float, count: int) -> Matrix:
     """Vertices that may be within reach of another of `count` parts, with the nearest points of that: shape (k, 7), as
     `nearest_points` has them after the vertex."""
-    part, positions, faces = prepared.components, prepared.positions, prepared.mesh.faces
-    low, high = positions[faces].min(axis=1), positions[faces].max(axis=1)
+    part = prepared.components
+    positions = prepared.positions
+    faces = prepared.mesh.faces
+    low = positions[faces].min(axis=1)
+    high = positions[faces].max(axis=1)
     rows = [np.empty((0, 7))]
     for number in range(count):
         is_own = part[faces[:, 0]] == number
         first = low[is_own].min(axis=0) - reach
         last = high[is_own].max(axis=0) + reach
-        is_close = ~is_own & (low <= last).all(axis=1) & (high >= first).all(axis=1)
+        begins_before = (low <= last).all(axis=1)
+        ends_after = (high >= first).all(axis=1)
+        is_close = ~is_own & begins_before & ends_after
         if not is_close.any():
             continue
         first = low[is_close].min(axis=0) - reach

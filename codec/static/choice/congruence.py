@@ -29,16 +29,19 @@ def transforms_of(prepared: Prepared, grid: Raster) -> Levels:
 def planes_of(positions: Matrix, faces: Faces) -> list[Matrix]:
     """Places on each axis of the longest edges at right angles to it, and their lengths over the extent: (k, 2)."""
     extent = float(extent_of(positions).max())
-    begins, ends = faces.reshape(-1), np.roll(faces, 1, axis=1).reshape(-1)
+    noise = 1e-6 * extent
+    begins = faces.reshape(-1)
+    ends = np.roll(faces, 1, axis=1).reshape(-1)
     planes = []
     for axis in range(3):
         column = np.ascontiguousarray(positions[:, axis])
         values = column[begins]
-        flat = np.flatnonzero(np.abs(column[ends] - values) <= 1e-6 * extent)
+        heights = np.abs(column[ends] - values)
+        flat = np.flatnonzero(heights <= noise)
         values = values[flat]
         sides = positions[ends[flat]] - positions[begins[flat]]
         lengths = np.sqrt(squares_of(sides)) / extent
-        planes.append(_longest_planes(values, lengths, 1e-6 * extent))
+        planes.append(_longest_planes(values, lengths, noise))
     return planes
 
 
@@ -48,10 +51,13 @@ def _longest_planes(values: Matrix, lengths: Matrix, noise: float) -> Matrix:
         return np.empty((0, 2))
     order = np.argsort(values)
     values = values[order]
-    starts = np.flatnonzero(np.diff(values, prepend=-np.inf) > noise)
+    distances = np.diff(values, prepend=-np.inf)
+    starts = np.flatnonzero(distances > noise)
     sums = np.add.reduceat(lengths[order], starts)
-    most = np.argsort(-sums, kind="stable")[:8]  # of axes with many, none fits well
-    return np.column_stack([values[starts[most]], sums[most]])
+    by_sum = np.argsort(-sums, kind="stable")
+    longest = by_sum[:8]  # of axes with many, none fits well
+    places = values[starts[longest]]
+    return np.column_stack([places, sums[longest]])
 
 
 def lattice(
@@ -71,12 +77,24 @@ def lattice(
         if len(plane):
             score -= _off_planes(plane, axis, origins, steps, is_open=bool(is_open[axis]))
     for turned, shift, share in rigid:
-        cells = (shift - origins @ (np.eye(3) - turned).T) / steps[:, None]
-        off = np.abs(cells - np.rint(cells)).max(axis=1)
+        back = np.eye(3) - turned
+        cells = (shift - origins @ back.T) / steps[:, None]
+        off = off_whole(cells).max(axis=1)
         # What a vertex has moved by, other images see.
-        score += share * np.maximum(0.0, 1.0 - np.square(16.0 * off))
+        loss = np.square(16.0 * off)
+        score += share * np.maximum(0.0, 1.0 - loss)
     best = int(score.argmax())
     return float(steps[best]), origins[best]
+
+
+def off_whole(numbers: Matrix) -> Matrix:
+    """How far numbers are from whole ones."""
+    return np.abs(numbers - np.rint(numbers))
+
+
+def _up_to_whole(cells: Matrix) -> Matrix:
+    """How far the next whole numbers are above."""
+    return np.ceil(cells - 1e-6) - cells
 
 
 Motion = tuple[Matrix, Matrix, float]
@@ -88,7 +106,8 @@ def _exchanges_of_axes(prepared: Prepared, step: float, turn: Turn) -> list[Moti
     turns, shifts, shares = motions_of(prepared, step, turn)
     extent = extent_of(prepared.mesh.positions).max()
     whole_turns = np.rint(turns)
-    is_exact = np.abs(turns - whole_turns).max(axis=(1, 2)) * extent < step / 4.0
+    off = off_whole(turns).max(axis=(1, 2))
+    is_exact = off * extent < step / 4.0
     order = np.argsort(-shares, kind="stable")
     return [(whole_turns[k], shifts[k], shares[k]) for k in order if is_exact[k]]
 
@@ -101,8 +120,9 @@ def _center(rigid: list[Motion], origins: Matrix, steps: Matrix) -> npt.NDArray[
         back = np.eye(3) - turned
         axes = back.any(axis=0)
         if axes.any() and is_open[axes].all():
-            cells = (np.linalg.pinv(back) @ shift - origins) / steps[:, None]
-            moves = (np.ceil(cells - 1e-6) - cells) * steps[:, None]
+            center = np.linalg.pinv(back) @ shift
+            cells = (center - origins) / steps[:, None]
+            moves = _up_to_whole(cells) * steps[:, None]
             origins[:, axes] -= moves[:, axes]
             is_open &= ~axes
     return is_open
@@ -117,11 +137,13 @@ def _off_planes(
     starts = origins[:, axis, None, None]
     if is_open:
         starts = values  # where plane j is at a place
-    cells = (values[:, None] - starts) / steps[:, None, None]
-    off = np.einsum("i,sij->sj", lengths, np.abs(cells - np.rint(cells)))
+    distances = values[:, None] - starts
+    cells = distances / steps[:, None, None]
+    off = np.einsum("i,sij->sj", lengths, off_whole(cells))
     if is_open:
-        cells = (values[off.argmin(axis=1)] - origins[:, axis]) / steps
-        origins[:, axis] -= (np.ceil(cells - 1e-6) - cells) * steps
+        nearest = values[off.argmin(axis=1)]
+        cells = (nearest - origins[:, axis]) / steps
+        origins[:, axis] -= _up_to_whole(cells) * steps
     return np.asarray(off.min(axis=1))
 
 
@@ -130,7 +152,8 @@ def motions_of(prepared: Prepared, step: float, turn: Turn) -> tuple[Matrix, Mat
     each takes to others; sought once for like steps, on a ladder from the first step on."""
     first = next(iter(prepared.motions), step)
     # For each step, bytes would jump from one to the next.
-    rung = first * 4.0 ** round(math.log(step / first, 4.0))
+    quarters = round(math.log(step / first, 4.0))
+    rung = first * 4.0**quarters
     if rung not in prepared.motions:
         cell = FINER * rung
         motions = motions_between(prepared.mesh.positions / cell, prepared.mesh.faces)
@@ -140,14 +163,18 @@ def motions_of(prepared: Prepared, step: float, turn: Turn) -> tuple[Matrix, Mat
     axes = np.eye(3)
     if any(turn):
         axes = turned_by(axes, turn)
-    return axes @ turns.reshape(-1, 3, 3) @ axes.T, shifts @ axes.T, shares[:, 0]
+    turns = axes @ turns.reshape(-1, 3, 3) @ axes.T
+    shifts = shifts @ axes.T
+    return turns, shifts, shares[:, 0]
 
 
 def motions_between(positions: Matrix, faces: Faces) -> Matrix:
     """Turns, shifts and shares of vertices, shape (k, 13), that take parts of a mesh, in cells, to others."""
-    count, motions = len(positions), np.empty((constant("MOST_TRANSFORMS"), 13))
+    count = len(positions)
+    motions = np.empty((constant("MOST_TRANSFORMS"), 13))
     degrees = np.bincount(faces.reshape(-1), minlength=count).astype(np.int32)
-    heads = np.empty(1 << max(count, len(faces), 2).bit_length(), np.int32)
+    head_bits = max(count, len(faces), 2).bit_length()
+    heads = np.empty(1 << head_bits, np.int32)
     links = np.empty(count + len(faces), np.int32)
     covered = np.zeros(48 << 14, np.uint8)
     room = np.zeros(1 << 18)
@@ -155,8 +182,10 @@ def motions_between(positions: Matrix, faces: Faces) -> Matrix:
     centered = np.ascontiguousarray(positions - middle)
     workspace = (heads, links, covered, room)
     number = _kernels.find_motions(centered, faces, degrees, WORTH, workspace, motions)
-    motions[:number, 9:12] += middle - motions[:number, :9].reshape(-1, 3, 3) @ middle
-    return motions[:number]
+    motions = motions[:number]
+    turns = motions[:, :9].reshape(-1, 3, 3)
+    motions[:, 9:12] += middle - turns @ middle
+    return motions
 
 
 def coded_transforms(turns: Matrix, shifts: Matrix, largest: npt.ArrayLike) -> Levels:
@@ -166,16 +195,22 @@ def coded_transforms(turns: Matrix, shifts: Matrix, largest: npt.ArrayLike) -> L
     middle = span / 2.0
     moved = turns @ middle + shifts
     source = np.abs(turns).argmax(axis=2)
-    sign = np.sign(np.take_along_axis(turns, source[..., None], axis=2)[..., 0])
+    largest_entries = np.take_along_axis(turns, source[..., None], axis=2)
+    sign = np.sign(largest_entries[..., 0])
     whole_turns = np.eye(3)[source] * sign[..., None]
-    others = (np.abs(turns - whole_turns) * span).max(axis=(1, 2)) >= 1.0
-    others |= (np.sort(source, axis=1) != np.arange(3)).any(axis=1)
+    off = np.abs(turns - whole_turns) * span
+    others = off.max(axis=(1, 2)) >= 1.0
+    axes = np.sort(source, axis=1)
+    others |= (axes != np.arange(3)).any(axis=1)
     is_swapped = (source[:, 1] - source[:, 0]) % 3 == 2
     mirrors = (sign < 0) @ np.array([1, 2, 4])
     kind = 8 * (2 * source[:, 0] + is_swapped) + mirrors
-    origins = np.rint(moved - sign * middle[source]) + np.where(sign > 0, span[source], 0)
-    rows = np.column_stack([kind, np.zeros((len(turns), 4)), origins])
-    ends = span + span[source]
+    source_span = span[source]
+    shifts_of_middle = np.rint(moved - sign * middle[source])
+    origins = shifts_of_middle + np.where(sign > 0, source_span, 0)
+    none = np.zeros((len(turns), 4))
+    rows = np.column_stack([kind, none, origins])
+    ends = span + source_span
     if others.any():
         rows[others] = _turned(turns[others], moved[others], middle, most)
         ends[others] = 24 * most
@@ -190,15 +225,25 @@ def _turned(turns: Matrix, moved: Matrix, middle: Matrix, most: int) -> Matrix:
     side = np.where(mirrored, -1.0, 1.0)[:, None, None]
     quaternion = quaternion_of(side * turns)
     bits = min(most.bit_length() + 2, constant("MOST_FINENESS"))
+    scale = 1 << bits
     which = np.abs(quaternion).argmax(axis=1)[:, None]
-    unit = np.rint(quaternion / np.take_along_axis(quaternion, which, axis=1) * (1 << bits))
-    a, v = unit[:, :1, None], unit[:, 1:]
-    spun = (
-        (a * a - np.square(v).sum(axis=1)[:, None, None]) * np.eye(3)
-        + 2.0 * v[:, :, None] * v[:, None]
-        + 2.0 * a * cross_of(v[:, None], np.eye(3)).transpose(0, 2, 1)
-    )
-    turned = side * spun / np.square(unit).sum(axis=1)[:, None, None]
-    quarters = np.rint(4.0 * (moved - turned @ middle)) + 12 * most
-    others = unit[np.arange(4) != which].reshape(-1, 3) + (1 << bits)
+    largest = np.take_along_axis(quaternion, which, axis=1)
+    unit = np.rint(quaternion / largest * scale)
+    square = np.square(unit).sum(axis=1)[:, None, None]
+    turned = side * _spun(unit) / square
+    shifts = moved - turned @ middle
+    quarters = np.rint(4.0 * shifts) + 12 * most
+    is_other = np.arange(4) != which
+    others = unit[is_other].reshape(-1, 3) + scale
     return np.column_stack([constant("AXIS_KINDS") + mirrored, which, others, quarters])
+
+
+def _spun(quaternion: Matrix) -> Matrix:
+    """The turns of quaternions, shape (k, 4), times the squares of their lengths."""
+    a = quaternion[:, :1, None]
+    v = quaternion[:, 1:]
+    unit = np.eye(3)
+    square = np.square(v).sum(axis=1)[:, None, None]
+    outer = 2.0 * v[:, :, None] * v[:, None]
+    crosses = cross_of(v[:, None], unit).transpose(0, 2, 1)
+    return np.asarray((a * a - square) * unit + outer + 2.0 * a * crosses)

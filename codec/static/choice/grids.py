@@ -16,7 +16,13 @@ from bsm.codec.arrays import Faces, Levels, Matrix, Positions, distinct
 from bsm.codec.geometry.mesh import box_around, extent_of, squares_of
 from bsm.codec.geometry.turns import UNTURNED, Turn, turn_of, turned_by
 from bsm.codec.static.choice.bounds import COARSEST, SEEN, SPIKE, Bounds
-from bsm.codec.static.choice.congruence import lattice, motions_of, planes_of, transforms_of
+from bsm.codec.static.choice.congruence import (
+    lattice,
+    motions_of,
+    off_whole,
+    planes_of,
+    transforms_of,
+)
 from bsm.codec.static.choice.trials import BYTES, DOUBT, Estimate, Trial, ladder_of, on_ladder
 from bsm.codec.static.preamble_encoding import Draft, Prepared
 from bsm.codec.static.targets import SLACK
@@ -87,7 +93,8 @@ def repeating(prepared: Prepared, grid: Raster, places: Levels, draft: Draft) ->
 
 def paying(prepared: Prepared, draft: Draft) -> Draft:
     """A draft without quarters of its transforms, and with whole vertices split, which decode slowly, if that pays."""
-    places, header = draft.places, draft.header
+    places = draft.places
+    header = draft.header
     if places is None or not header.congruence:
         return draft
     grid = grid_of(header)
@@ -128,8 +135,8 @@ def exact(prepared: Prepared) -> Draft:
     grid = replace(grid, exact=True)
     positions = prepared.mesh.positions.astype(np.float32).astype(np.float64)
     header = Header(**prepared.fields, **grid.fields)
-    body = (*prepared.before_grid, *encode_grid(prepared.mesh.faces, grid, places, positions))
-    return Draft(header, body, positions, places)
+    coded = encode_grid(prepared.mesh.faces, grid, places, positions)
+    return Draft(header, (*prepared.before_grid, *coded), positions, places)
 
 
 def _rounded(
@@ -140,7 +147,8 @@ def _rounded(
 ) -> tuple[Raster, Levels]:
     """A grid of so many bits, of given cells, or of exact floats, and the places on it, shape (n, 3)."""
     positions = np.ascontiguousarray(prepared.mesh.positions, np.float64)
-    corner, step, largest, places = places_on(positions, bits, cell, np.array(origin, np.float64))
+    given_origin = np.array(origin, np.float64)
+    corner, step, largest, places = places_on(positions, bits, cell, given_origin)
     return Raster(corner, step, largest), places
 
 
@@ -166,25 +174,33 @@ def made_on(positions: Matrix, within: float) -> float | None:
                 reach *= 4.0
             if step < 8.0 * noise:
                 return None
-        if not len(values) or (np.abs(values - np.rint(values / step) * step) > noise).any():
+        if not len(values):
+            return None
+        nearest = np.rint(values / step) * step
+        if (np.abs(values - nearest) > noise).any():
             return None
     return step * extent
 
 
 def spacing_of(positions: Matrix, faces: Faces) -> float:
     """The spacing of rows and columns of a regular mesh, or what divides both, down to an eighth; 0: there is none."""
-    sample, extent = faces[:: 1 + len(faces) // SAMPLE], extent_of(positions)
+    sample = faces[:: 1 + len(faces) // SAMPLE]
+    extent = extent_of(positions)
     sides = positions[sample] - positions[np.roll(sample, 1, axis=1)]
     spans = np.abs(sides).reshape(-1, 3)
-    noise, common = 1e-6 * float(extent.max()), 0.0
+    noise = 1e-6 * float(extent.max())
+    common = 0.0
     for axis in range(3):
-        along = np.sort(spans[spans[:, axis] > 4.0 * noise, axis])
+        along = spans[:, axis]
+        along = np.sort(along[along > 4.0 * noise])
         if 8 * len(along) <= len(spans):
             continue
-        alike = np.searchsorted(along, (1.0 + 1e-4) * along + noise) - np.arange(len(along))
+        ends = np.searchsorted(along, (1.0 + 1e-4) * along + noise)
+        alike = ends - np.arange(len(along))
+        first = int(alike.argmax())
         # What more edges span than anything else.
-        spacing = float(along[alike.argmax() :][: alike.max()].mean())
-        off = np.abs(along / spacing - np.rint(along / spacing)) > 2.0 * SLACK
+        spacing = float(along[first : ends[first]].mean())
+        off = off_whole(along / spacing) > 2.0 * SLACK
         # Without rows, seven in eight would be off.
         if off.mean() < 8.0 * SLACK and extent[axis] > 8.0 * spacing:
             common = _common_spacing(spacing, common or spacing)
@@ -195,7 +211,7 @@ def _common_spacing(spacing: float, other: float) -> float:
     """Return what divides both spacings, down to an eighth of the wider one; that, where nothing does."""
     parts = max(spacing, other) / np.arange(1.0, 9.0)
     spacings = min(spacing, other) / parts
-    fits = np.abs(spacings - np.rint(spacings)) < SLACK / 4.0
+    fits = off_whole(spacings) < SLACK / 4.0
     return float(parts[fits.argmax()])  # the first one, where none fits
 
 
@@ -205,7 +221,10 @@ class Frame:
     def __init__(
         self, prepared: Prepared, bounds: Bounds, turn: Turn = UNTURNED, spacing: float = 0.0
     ) -> None:
-        self.prepared, self.bounds, self.turn, self.spacing = prepared, bounds, turn, spacing
+        self.prepared = prepared
+        self.bounds = bounds
+        self.turn = turn
+        self.spacing = spacing
         units = prepared.units
         axes = turned_by(prepared.mesh.positions, turn, back=True)
         self.positions = prepared.positions
@@ -215,23 +234,28 @@ class Frame:
         if spacing:
             heights = self.positions - units.into(low)
             around = np.exp(2j * math.pi / spacing * heights).mean(axis=0)
-            low = low + np.angle(around) / (2.0 * math.pi) * spacing * units.scale
+            rows = np.angle(around) / (2.0 * math.pi) * spacing
+            low = low + rows * units.scale
         self.hold: Callable[[float], float] = float
         narrow = low.astype(np.float32)
-        if np.spacing(np.abs(narrow)).max() < 1e-6 * units.scale:  # exact enough
+        rounding = np.spacing(np.abs(narrow)).max()
+        if rounding < 1e-6 * units.scale:  # exact enough
             self.hold = single
             next_below = np.nextafter(narrow, np.float32(-np.inf))
-            low = np.where(narrow > low, next_below, narrow).astype(np.float64)
+            narrow = np.where(narrow > low, next_below, narrow)
+            low = narrow.astype(np.float64)
         self._origin = low
-        extent = float((self.positions - units.into(self._origin)).max())
+        heights = self.positions - units.into(low)
+        cell = float(heights.max()) / (MOST_GRID - 4)
         smallest = float(np.finfo(np.float32).smallest_subnormal)
-        self.least = max(extent / (MOST_GRID - 4), smallest / units.scale)
+        self.least = max(cell, smallest / units.scale)
 
     @cached_property
     def first(self) -> float:
         """The step that a search begins with, which is on the ladder."""
         # Where half a diagonal of cells is beyond the least reach, it is not the look that decides.
-        reach = 2.0 * float(self.bounds.reaches.min()) / math.sqrt(3.0)
+        least_reach = float(self.bounds.reaches.min())
+        reach = 2.0 * least_reach / math.sqrt(3.0)
         step = min(self.bounds.first_step, COARSEST, reach)
         return float(self.dividing(max(on_ladder(step), self.least)))
 
@@ -267,7 +291,8 @@ class Frame:
         if not may_repeat(self.prepared):
             return 0.0
         _, _, shares = self.motions
-        return 1.0 - float(np.prod(1.0 - np.minimum(shares, 1.0)))
+        unexplained = 1.0 - np.minimum(shares, 1.0)
+        return 1.0 - float(np.prod(unexplained))
 
     def cells(self, step: float, mirrored: bool) -> tuple[float, Matrix]:
         """Return the length of a cell near a step, and the origin, in the unit of the mesh."""
@@ -319,12 +344,14 @@ class Gridded:
         going: bool = False,
         only_step: float = 0.0,
     ) -> None:
-        self.name, self.frame = name, frame
+        self.name = name
+        self.frame = frame
         self._prepared = frame.prepared
         self._bounds = frame.bounds
         self._shaper = frame.bounds.measures.shaper
         self._worth = worth
-        self._images, self._going = images, going
+        self._images = images
+        self._going = going
         self._made = only_step
         self.least = only_step or frame.least
         self.most = only_step or COARSEST
@@ -340,8 +367,9 @@ class Gridded:
             return np.log([self._made])
         if not self.frame.spacing:
             return ladder_of(self.least, self.most)
-        steps = ladder_of(self.first / math.e, self.most)
-        return np.asarray(np.log(distinct(self.frame.dividing(np.exp(steps)))))
+        ladder = ladder_of(self.first / math.e, self.most)
+        steps = self.frame.dividing(np.exp(ladder))
+        return np.asarray(np.log(distinct(steps)))
 
     @property
     def light_size(self) -> int:
@@ -353,7 +381,8 @@ class Gridded:
 
     def estimate(self, rival: float) -> Estimate:
         """Return about how many bytes a trial at the first step takes."""
-        fixed, size = len(self._prepared.connectivity.data), float(self.frame.light_size)
+        fixed = len(self._prepared.connectivity.data)
+        size = float(self.frame.light_size)
         varying = BYTES * self._prepared.graph.size
         if self._made:
             if not self._images:
@@ -423,13 +452,17 @@ class Gridded:
 
     def places(self, step: float, *, unfolded: bool = False) -> tuple[Raster, Levels]:
         """Return a grid, and the place of each vertex on it."""
-        frame, unit = self.frame, self._prepared.units.scale
+        frame = self.frame
+        unit = self._prepared.units.scale
         length, origin = frame.cells(step, mirrored=not self._made)
-        cell, low = length / unit, self._prepared.units.into(origin)
-        places = np.floor((frame.positions - low) / cell + 0.5).astype(np.int32)
+        cell = length / unit
+        low = self._prepared.units.into(origin)
+        in_cells = (frame.positions - low) / cell
+        places = np.floor(in_cells + 0.5).astype(np.int32)
         if self._worth:
             worth = self._worth * step / self._shaper.mean_edge
-            reach = min(float(self._bounds.reaches.min()), SPIKE * step)
+            least_reach = float(self._bounds.reaches.min())
+            reach = min(least_reach, SPIKE * step)
             places = self._shaper.places(places, low, cell, worth, reach)
         # The coder decides where vertices go to images: it mends most folds.
         if self._bounds.metric is not None and (unfolded or not self._going):
@@ -443,12 +476,14 @@ class Gridded:
         # Pictures show faces without area; on coarse grids there are many.
         if self._bounds.metric is not None:
             largest = np.array(grid.largest, np.int32)
-            places = self._prepared.linked.mended(places, largest, self._wanted(grid, places))
+            targets = self._wanted(grid, places)
+            places = self._prepared.linked.mended(places, largest, targets)
         return grid, places
 
     def _unfolded(self, places: Levels, low: Matrix, cell: float) -> Levels:
         """Return places from `low` on with fewer edges folded over."""
-        turn, reaches = self.frame.turn, np.minimum(self._bounds.reaches, SPIKE * cell)
+        turn = self.frame.turn
+        reaches = np.minimum(self._bounds.reaches, SPIKE * cell)
         positions = turned_by(places * cell + low, turn)
         directions = turned_by(cell * np.eye(3), turn).reshape(1, 9)
         unfolded = self._shaper.unfold(positions, places, directions, reaches)
@@ -458,19 +493,23 @@ class Gridded:
 
     def _apart(self, places: Levels, low: Matrix, cell: float) -> Levels:
         """Return places from `low` on; vertices that would close a gap between parts move away, a cell or a few."""
-        gaps, turn = self._bounds.gaps, self.frame.turn
+        gaps = self._bounds.gaps
+        turn = self.frame.turn
         if not len(gaps.ends):
             return places
         toward = turned_by(gaps.closing[:, 0], turn, back=True)
-        away = -np.rint(toward / np.abs(toward).max(axis=1, keepdims=True)).astype(np.int32)
+        largest = np.abs(toward).max(axis=1, keepdims=True)
+        away = -np.rint(toward / largest).astype(np.int32)
+        first_ends = gaps.ends[:, 0]
+        second_ends = gaps.ends[:, 1]
         for attempt in range(3):
             moved = turned_by(places * cell + low - self.frame.positions, turn)
             wrong = gaps.closed(moved) > 1.0
             if not wrong.any():
                 break
             if attempt == 0:  # at first, of one part
-                wrong &= gaps.ends[:, 0] >= gaps.ends[:, 1]
-            places[gaps.ends[wrong, 0]] += away[wrong]
+                wrong &= first_ends >= second_ends
+            places[first_ends[wrong]] += away[wrong]
         return places
 
     def _draft(
@@ -492,14 +531,16 @@ class Gridded:
 
     def _wanted(self, grid: Raster, places: Levels) -> Matrix:
         """Return where each vertex would be, in cells, and the square of how far off it may be, shape (n, 4)."""
-        units, gaps = self._prepared.units, self._bounds.gaps
+        units = self._prepared.units
+        gaps = self._bounds.gaps
         cell = grid.step / units.scale
         low = units.into(np.array(grid.origin))
         targets = (self.frame.positions - low) / cell
         reach = np.minimum(gaps.kept(self._bounds.reaches) / cell, SPIKE)
         # Who is past the middle of a gap leaves no room in it: there, all stay where they are.
         past = squares_of(places - targets) > np.square(reach)
-        reach[gaps.ends[past[gaps.ends].any(axis=1)]] = 0.0
+        is_full = past[gaps.ends].any(axis=1)
+        reach[gaps.ends[is_full]] = 0.0
         return np.column_stack([targets, np.square(reach)])
 
 
@@ -519,7 +560,8 @@ def best_frame(prepared: Prepared, bounds: Bounds) -> Frame:
     # Sent normals stay in the axes of the mesh, and may be predicted from the grid.
     if not may_repeat(prepared) or prepared.light or bounds.measures.normals is not None:
         return usual
-    sample = prepared.mesh.faces[:: 1 + len(prepared.mesh.faces) // (4 * SAMPLE)]
+    faces = prepared.mesh.faces
+    sample = faces[:: 1 + len(faces) // (4 * SAMPLE)]
     turn = turn_of(prepared.positions, sample)
     if not any(turn):
         return usual

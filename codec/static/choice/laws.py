@@ -37,9 +37,12 @@ class Law:
         luck: float,
         slope_doubt: float,
     ) -> None:
-        self._steps, self._slope, self._luck = steps, slope, luck**2
+        self._steps = steps
+        self._slope = slope
+        self._luck = luck**2
         self._trust_in_slope = 1.0 / (2.0 * slope_doubt * slope) ** 2
-        self.places, self.values = [first], [guess]
+        self.places = [first]
+        self.values = [guess]
         self._doubt = doubt
         self._squares = TRUST * self._luck
         self._fit()
@@ -53,7 +56,8 @@ class Law:
         """Take in the value of a trial, and, from the second one on, how lucky it was."""
         surprise = 1.0
         if self.count:
-            surprise = 3.0 * ((value - self.mean[index]) / (math.pi * self.spread[index])) ** 2
+            deviation = value - self.mean[index]
+            surprise = 3.0 * (deviation / (math.pi * self.spread[index])) ** 2
         self._squares += self._luck * surprise
         self.places.append(float(self._steps[index]))
         self.values.append(value)
@@ -67,7 +71,8 @@ class Law:
         self._fit()
 
     def _fit(self) -> None:
-        places, values = np.array(self.places), np.array(self.values)
+        places = np.array(self.places)
+        values = np.array(self.values)
         doubts = np.zeros(len(places))
         doubts[0] = self._doubt
         distances = self._steps[:, None] - places
@@ -78,12 +83,15 @@ class Law:
             trust_in_slope = self._luck * self._trust_in_slope
             deviations = values[1:] - slope * centered
             slope += centered @ deviations / (centered @ centered + trust_in_slope)
-        weights = 1.0 / (doubts**2 + self._luck + slope_doubt * distances**2)
+        variances = doubts**2 + self._luck + slope_doubt * distances**2
+        weights = 1.0 / variances
         total = weights.sum(axis=1)
-        self.mean: Matrix = (weights * (values + slope * distances)).sum(axis=1) / total
+        expected = values + slope * distances
+        self.mean: Matrix = (weights * expected).sum(axis=1) / total
         self.spread: Matrix = LOGISTIC * np.sqrt(self._luck + 1.0 / total)
         rows = np.searchsorted(self._steps, places[1:])
-        self.mean[rows], self.spread[rows] = values[1:], LEAST
+        self.mean[rows] = values[1:]
+        self.spread[rows] = LEAST
 
 
 UNCODED, CODED, DONE = 2, 1, 0  # stages that are left
@@ -93,7 +101,9 @@ class Prospect:
     """A way, and what its trials may come to; `luck`: standard deviation of errors around their law."""
 
     def __init__(self, way: Way, estimate: Estimate, rise: float, luck: float) -> None:
-        self.way, self.estimate, self.steps = way, estimate, way.ladder
+        self.way = way
+        self.estimate = estimate
+        self.steps = way.ladder
         self.first = self.index_of(way.first)
         place = float(self.steps[self.first])
         guess = math.log(estimate.size), estimate.doubt
@@ -109,7 +119,8 @@ class Prospect:
 
     def index_of(self, step: float) -> int:
         """Return the index of the nearest step that may be tried."""
-        return int(np.abs(self.steps - math.log(step)).argmin())
+        distances = np.abs(self.steps - math.log(step))
+        return int(distances.argmin())
 
     def close(self, steps: Matrix) -> None:
         """Open none of these steps any more."""
@@ -132,7 +143,8 @@ class Prospect:
 
     def next_stage(self, least: float, price: float) -> tuple[float, int]:
         """Return the expected saving of the best stage, less its price, and the index of its step."""
-        errors, closed = self.errors, self.states == DONE
+        errors = self.errors
+        closed = self.states == DONE
         distance = np.abs(errors.mean + errors.spread)
         distance[closed] = math.inf
         safest = int(distance.argmin())
@@ -142,10 +154,12 @@ class Prospect:
             if not errors.count:
                 gain += UNTRIED
             return gain, index
-        chance = np.exp(-np.logaddexp(0.0, errors.mean / errors.spread))
+        excess = errors.mean / errors.spread
+        chance = np.exp(-np.logaddexp(0.0, excess))
         paid = least - price / np.maximum(chance, LEAST)
         sizes = self.sizes
-        savings = sizes.spread * np.logaddexp(0.0, (paid - sizes.mean) / sizes.spread)
+        saved = (paid - sizes.mean) / sizes.spread
+        savings = sizes.spread * np.logaddexp(0.0, saved)
         gains = chance * savings - price * (self.states == UNCODED)
         gains[closed] = -math.inf
         best = int(gains.argmax())

@@ -50,7 +50,9 @@ class Search:
         additions: int,
         trace: Trace,
     ) -> None:
-        self._measures, self.prepared, self._options = measures, measures.prepared, options
+        self._measures = measures
+        self.prepared = measures.prepared
+        self._options = options
         self.size = size
         self.additions = additions  # about the bytes of attributes and metadata
         self.trace = trace
@@ -136,7 +138,9 @@ class OneSearch:
     """One search for the fewest bytes that keep some bounds."""
 
     def __init__(self, search: Search, bounds: Bounds) -> None:
-        self._search, self._bounds, self._trace = search, bounds, search.trace
+        self._search = search
+        self._bounds = bounds
+        self._trace = search.trace
         self.best: Trial | None = None
         self._refusals = 0  # of trials in which faces lose their areas or fold
         self._least = math.inf  # the logarithm of the bytes of the best trial
@@ -259,7 +263,8 @@ class OneSearch:
         if finer:
             prospect.close(prospect.steps > prospect.steps[index] - finer)
         else:
-            self.best, self._least = trial, size
+            self.best = trial
+            self._least = size
 
     def _note_drawing(
         self, way: Way, trial: Trial, size: float, error: float, reason: str = ""
@@ -304,7 +309,8 @@ class OneSearch:
                 # A way that takes more bytes than another one where it is too coarse ends here.
                 return -SLACK / 4.0
             if size < self._least and not self._finer(trial, self._is_faulty(trial)):
-                self.best, self._least = trial, size
+                self.best = trial
+                self._least = size
             return error
 
         for tries in (1, TRIES):

@@ -41,7 +41,9 @@ class Settler:
     """Chooses levels of a mesh; errors of all its vertices cost alike."""
 
     def __init__(self, positions: Positions, faces: Levels, graph: Graph) -> None:
-        self._positions, self._faces, self._graph = positions, faces, graph
+        self._positions = positions
+        self._faces = faces
+        self._graph = graph
         self._tangents = lru_cache(1)(partial(tangent_steps, positions, faces, 1.0))
 
     def levels(
@@ -92,7 +94,8 @@ def _bits(counts: Matrix) -> Matrix:
     sizes = np.arange(counts.shape[1])
     signs = np.minimum(sizes, 1)
     trusted = counts + np.exp2(signs) / np.square(1.0 + sizes)  # before any is counted
-    return np.ascontiguousarray(np.log2(trusted.sum(axis=1, keepdims=True) / trusted) + signs)
+    total = trusted.sum(axis=1, keepdims=True)
+    return np.ascontiguousarray(np.log2(total / trusted) + signs)
 
 
 def creases_of(positions: Positions, faces: Faces) -> Creases:
@@ -101,14 +104,19 @@ def creases_of(positions: Positions, faces: Faces) -> Creases:
     around = vertex_faces(faces, count)
     crosses = np.empty((len(faces), 4))
     middle = math.degrees(math.acos(CREASE))
-    bends = CREASE, math.cos(math.radians(middle + WITHIN)), math.cos(math.radians(middle - WITHIN))
+    least_cosine = math.cos(math.radians(middle + WITHIN))
+    most_cosine = math.cos(math.radians(middle - WITHIN))
+    bends = CREASE, least_cosine, most_cosine
 
     def collect(room: int) -> tuple[int, Indices, npt.NDArray[np.uint8], Matrix]:
-        creases = np.empty((room, 2), np.int32), np.empty(room, np.uint8), np.empty(room)
+        pairs = np.empty((room, 2), np.int32)
+        sharp = np.empty(room, np.uint8)
+        costs = np.empty(room)
+        creases = pairs, sharp, costs
         number = _kernels.collect_creases(
             positions, faces, around, MOST_AROUND, bends, crosses, creases
         )
-        return number, *creases
+        return number, pairs, sharp, costs
 
     _, pairs, sharp, costs = collect(collect(0)[0])
     starts, members = vertex_faces(faces[pairs].reshape(-1, 6), count)

@@ -25,7 +25,8 @@ class Shaper:
     """Chooses levels for one mesh."""
 
     def __init__(self, original: Original, graph: Graph) -> None:
-        positions, faces = original.positions, original.faces
+        positions = original.positions
+        faces = original.faces
         self.around = around = vertex_faces(faces, len(positions))
         self._original = original
         self._graph = graph
@@ -38,8 +39,10 @@ class Shaper:
     @cached_property
     def mean_edge(self) -> float:
         """Mean length of an edge: of the first one of each face; 1 where that is zero."""
-        a, b = (self._original.positions[corner] for corner in self._original.faces[:, :2].T)
-        return float(np.sqrt(squares_of(a - b)).mean()) or 1.0
+        positions, faces = self._original.positions, self._original.faces
+        sides = positions[faces[:, 0]] - positions[faces[:, 1]]
+        lengths = np.sqrt(squares_of(sides))
+        return float(lengths.mean()) or 1.0
 
     def levels(
         self, base: Positions, goals: Levels, directions: Matrix, worth: float, reach: float
@@ -51,7 +54,8 @@ class Shaper:
         moved = np.ascontiguousarray(base + shifts)
         flat = np.ascontiguousarray(directions.reshape(len(base), -1))
         aim = worth / len(base), reach, 6
-        _kernels.shape_levels(self._wanted, aim, (moved, chosen, self._open), flat, scales, PULL)
+        shaped = moved, chosen, self._open
+        _kernels.shape_levels(self._wanted, aim, shaped, flat, scales, PULL)
         return chosen
 
     def places(
@@ -119,8 +123,10 @@ class Shaper:
     @cached_property
     def _flaps(self) -> Indices:
         """The vertices of each edge and those across from it, shape (k, 4)."""
-        faces, graph = self._original.faces, self._graph
-        flaps = np.empty((len(graph.neighbors) // 2, 4), np.int32)
+        faces = self._original.faces
+        graph = self._graph
+        edges = len(graph.neighbors) // 2
+        flaps = np.empty((edges, 4), np.int32)
         pending = np.empty(len(graph.neighbors), np.int32)
         count = _kernels.collect_flaps(faces, graph.offsets, graph.neighbors, pending, flaps)
         del pending

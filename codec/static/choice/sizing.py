@@ -30,7 +30,10 @@ class SizeSearch:
     def __init__(
         self, bounds: Bounds, size: Callable[[Draft], int], additions: int, trace: Trace
     ) -> None:
-        self._bounds, self._size, self._additions, self._trace = bounds, size, additions, trace
+        self._bounds = bounds
+        self._size = size
+        self._additions = additions
+        self._trace = trace
         graph_size = bounds.measures.prepared.graph.size
         self.usual_size = math.inf  # about the bytes of the default, once ways have told theirs
         self._saving = BYTES * graph_size
@@ -42,7 +45,8 @@ class SizeSearch:
         for way in self._promising(ways, most):
             for trial in self._fitting(way, most):
                 quality = self._bounds.quality(trial)
-                size, error = trial.draft.size, math.exp(quality)
+                size = trial.draft.size
+                error = math.exp(quality)
                 self._trace.note("draw", way.name, step=trial.step, size=size, error=error)
                 if self._bounds.keeps(trial):
                     yield quality, trial
@@ -97,7 +101,7 @@ class SizeSearch:
     def _finest(self, way: Way, rungs: Matrix, excess: Callable[[int], float]) -> int | None:
         """Return the index of the finest rung that fits; None: none does."""
         low, high = -1, len(rungs)  # too fine; coarse enough
-        index = int(abs(rungs - math.log(way.first)).argmin())
+        index = begin = int(abs(rungs - math.log(way.first)).argmin())
         # Sizes depend on luck, so a slope may lead nowhere: until a rung fits and another does not, strides double.
         # Between such rungs bytes fall about evenly; every other time the middle is taken, where they do not.
         stride, halves = 1, False
@@ -114,7 +118,8 @@ class SizeSearch:
                 target = low + round(share * (high - low))
                 halves = not halves
             else:
-                jump = max(math.floor(abs(over) / (self._saving * RUNG)), stride)
+                rungs_away = abs(over) / (self._saving * RUNG)
+                jump = max(math.floor(rungs_away), stride)
                 if over <= 0.0:
                     jump = -jump
                 target = index + jump
@@ -123,11 +128,8 @@ class SizeSearch:
         if high < len(rungs):
             return high
         # Wide steps move vertices so far that images no longer help: sizes fall, and rise again.
-        begin = int(abs(rungs - math.log(way.first)).argmin())
-        for index in range(begin, len(rungs), SPARSE):
-            if excess(index) <= 0.0:
-                return index
-        return None
+        sparse = range(begin, len(rungs), SPARSE)
+        return next((index for index in sparse if excess(index) <= 0.0), None)
 
 
 def _every(ladder: Matrix) -> Matrix:

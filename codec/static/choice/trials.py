@@ -78,8 +78,10 @@ class Way(Protocol):
 
 def ladder_of(least: float, most: float) -> Matrix:
     """Return the logarithms of steps between two bounds, which are at the same places for all meshes and promises."""
-    low, high = math.log(least), math.log(most)
-    first, last = math.ceil(low / SLACK), math.floor(high / SLACK)
+    low = math.log(least)
+    high = math.log(most)
+    first = math.ceil(low / SLACK)
+    last = math.floor(high / SLACK)
     if last < first:
         return np.array([high])
     return np.asarray(SLACK * np.arange(first, last + 1), np.float64)

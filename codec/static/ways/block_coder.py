@@ -110,11 +110,10 @@ class ChainEncoder:
 
     def __init__(self, scheme: Scheme, sizing: Sizing, charge: Charge | None = None) -> None:
         self._charge = charge
-        self._most, self._sizes = sizing.most, sizing.begin()
-        self._chain, self._coding = (
-            Chain(scheme.rules, scheme.blocks, scheme.coding.width),
-            scheme.coding,
-        )
+        self._most = sizing.most
+        self._sizes = sizing.begin()
+        self._chain = Chain(scheme.rules, scheme.blocks, scheme.coding.width)
+        self._coding = scheme.coding
 
     def encode(self, index: int, positions: Matrix) -> CodedBlock:
         """Encode the block of an index; `positions`, shape (n, 3), are those of all vertices, in BSM units."""
@@ -166,7 +165,9 @@ PATIENCE = 8.0
 
 def patience(limits: str, vertices: int) -> Charge:
     """Adds up the work of an encoder, and raises `LimitError` where it would come to nothing that is decoded."""
-    granted, spent, lock = NAMED_LIMITS[limits](), 0.0, Lock()
+    granted = NAMED_LIMITS[limits]()
+    spent = 0.0
+    lock = Lock()
     most = Limits(work=PATIENCE * granted.work, work_per_vertex=PATIENCE * granted.work_per_vertex)
 
     def charge(work: float) -> None:
@@ -186,7 +187,9 @@ def mesh_memory(vertices: int, faces: int) -> float:
 
 def admit(limits: str, prepared: Prepared, blocks: Sequence[CodedBlock]) -> None:
     """Raise `LimitError` for blocks that decoders would refuse, as far as that is known without decoding them."""
-    granted, vertices, faces = NAMED_LIMITS[limits](), prepared.graph.size, len(prepared.mesh.faces)
+    granted = NAMED_LIMITS[limits]()
+    vertices = prepared.graph.size
+    faces = len(prepared.mesh.faces)
     # Blocks are decoded one after the other in a chain, so the largest counts, and not the sum.
     memory = mesh_memory(vertices, faces) + max(block.memory for block in blocks)
     granted.check_memory(memory, vertices, len(prepared.connectivity.data))

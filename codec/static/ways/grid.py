@@ -131,7 +131,8 @@ def levels_field(faces: Indices, levels: Levels) -> Field:
 
 def encode_layer(faces: Indices, levels: Levels, after: int = 0) -> list[packets.Refinement]:
     """The packets of the layer of refinement, of levels, shape (n, 3), numbered on from `after`."""
-    field, size = levels_field(faces, levels), len(levels)
+    field = levels_field(faces, levels)
+    size = len(levels)
     chunks = [(start, min(LAYER_CHUNK, size - start)) for start in range(0, size, LAYER_CHUNK)]
     return [
         packets.Refinement(after + start, count, *field.write(count)) for start, count in chunks

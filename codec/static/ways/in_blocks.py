@@ -63,7 +63,8 @@ class RefinementBase:
 
     def _steps(self, upright: Matrix, layer: Layer) -> Matrix:
         aside = tangent_steps(upright, self.prepared.mesh.faces, layer.step, layer.ratio)
-        return np.column_stack([np.full(len(aside), layer.step), aside, aside])
+        heights = np.full(len(aside), layer.step)
+        return np.column_stack([heights, aside, aside])
 
     def about(self, layer: Layer) -> float:
         """About the bytes of blocks, cells and levels of a layer, by the sizes of levels."""
@@ -157,7 +158,8 @@ class InBlocks:
                 self._widest = 2 * self._widest // 3
 
     def _base(self, step: float, progress: Progress | None) -> RefinementBase:
-        prepared, options = self._prepared, self._options
+        prepared = self._prepared
+        options = self._options
         scheme = self._scheme(step)
         blocks = encode_blocks(
             scheme,
@@ -193,7 +195,9 @@ class InBlocks:
 
     def _scheme(self, step: float) -> Scheme:
         """How blocks are coded at a step."""
-        rules, bits, size = self._rules(), self._options.paper.bits, self._prepared.size
+        rules = self._rules()
+        bits = self._options.paper.bits
+        size = self._prepared.size
         if bits is not None:
             return Scheme(self._prepared.blocks, rules, self._packed(bits, rules, step))
         # Finer levels would not fit into the integers of the law.
@@ -239,7 +243,8 @@ class InBlocks:
 
     def _width(self, step: float) -> int:
         """c: the option's value, or as many coefficients as are worth coding at this step."""
-        options, size = self._options, self._prepared.size
+        options = self._options
+        size = self._prepared.size
         most = size
         if options.paper.doi is not None:
             most = self._widest
@@ -282,14 +287,16 @@ class InBlocks:
 
     def _packed(self, bits: int, rules: ChainRules, step: float) -> Packed:
         """With the step that makes the most of a fixed number of bits: it takes a pass over all blocks."""
-        blocks, positions = self._prepared.blocks, self._prepared.positions
+        blocks = self._prepared.blocks
+        positions = self._prepared.positions
         width = self._width(0.0)
         charge = patience(self._options.limits, len(positions))
         sizing = self._sizing(width, step)
 
         def largest(indices: range) -> Matrix:
             """Largest coefficient in the first row of any block of a chain, and in all others."""
-            chain, sizes = Chain(rules, blocks), sizing.begin()
+            chain = Chain(rules, blocks)
+            sizes = sizing.begin()
             largest_yet = np.zeros(2)
             for index in indices:
                 vertices, _, _ = chain.begin(index)
@@ -297,18 +304,21 @@ class InBlocks:
                 dictionary, coefficients = offer(chain, block_positions, width, sizes, charge)
                 chain.commit(dictionary.shape[1], block_positions)
                 magnitudes = np.abs(coefficients)
-                first, others = magnitudes[:1].max(), magnitudes[1:].max(initial=0.0)
+                first = magnitudes[:1].max()
+                others = magnitudes[1:].max(initial=0.0)
                 largest_yet = np.maximum(largest_yet, [first, others])
             return largest_yet
 
         chains = rules.chains(blocks.count)
         # The largest coefficients of all blocks decide the step, so all blocks are transformed twice.
-        first, others = np.max(list(ordered_map(largest, chains, self._options.threads)), axis=0)
+        all_largest = list(ordered_map(largest, chains, self._options.threads))
+        first, others = np.max(all_largest, axis=0)
         return Packed(width, bits, *packed_range(first, others, bits))
 
     def _badness(self, decoded: Matrix) -> float:
         """What smoothing shall lower: the target's own measure, or else theta and NMSVE together."""
-        target, reference = self._options.target, self._prepared.reference
+        target = self._options.target
+        reference = self._prepared.reference
         if target is not None and target.kind == "theta_deg":
             return reference.theta(decoded)
         if target is not None and target.kind == "nmsve_db":

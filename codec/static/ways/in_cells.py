@@ -91,7 +91,8 @@ class InCells:
     def __init__(
         self, prepared: Prepared, options: EncodeOptions, widest: float, reach: int, rounds: int
     ) -> None:
-        self._prepared, self._widest = prepared, widest
+        self._prepared = prepared
+        self._widest = widest
         self.smoothing = self._reach, self._rounds = reach, rounds
         self._options = replace(options, key_interval=min(options.key_interval, CHAIN))
 
@@ -102,7 +103,8 @@ class InCells:
     @cached_property
     def _coarse(self) -> Prepared:
         """The cells, as a mesh that blocks can be on."""
-        prepared, cells = self._prepared, self.cells
+        prepared = self._prepared
+        cells = self.cells
         mesh = _Places(prepared.units.back(self._fit.places), cells.faces)
         return replace(prepared, mesh=mesh, graph=cells.graph, parts=self.parts)
 
@@ -118,18 +120,23 @@ class InCells:
         """Levels of cells below levels of vertices at about a step: for all steps of cells, finest first.
 
         Levels along normals tell which step is best; `settled` fits those along tangents, for that step alone."""
-        coarse, cells = self._coarse, spread.levels * step
+        coarse = self._coarse
+        cells = spread.levels * step
         rough = max(spread.coefficients * step, 1.01 * smallest_step(coarse.size))
-        blocks = _Blocks(coarse, self._options, self._widest).base(min(rough, 0.5))
+        spectral = _Blocks(coarse, self._options, self._widest)
+        blocks = spectral.base(min(rough, 0.5))
         farthest = float(np.abs(blocks.offsets).max(initial=0.0))
         most = min(40, int(math.log2(FARTHEST / max(farthest, LEAST))))
-        finest, coarsest = (math.ceil(-math.log2(cells * apart)) for apart in (1.0 / APART, APART))
+        finest = math.ceil(-math.log2(cells * (1.0 / APART)))
+        coarsest = math.ceil(-math.log2(cells * APART))
         for halvings in reversed(range(coarsest, finest)):
             yield self._nearest(blocks, max(min(halvings, most), 1))
 
     def base(self, cells: LeveledCells) -> RefinementBase:
         """The places that levels bring cells to, prolonged."""
-        prepared, coarse, blocks = self._prepared, self._coarse, cells.blocks
+        prepared = self._prepared
+        coarse = self._coarse
+        blocks = cells.blocks
         places = blocks.moved(cells.layer, cells.levels, cells.steps)
         levels = encode_layer(blocks.prepared.mesh.faces, cells.levels)
         positions = prolonged(self.cells, prepared.graph, places, self._rounds)
@@ -151,13 +158,15 @@ class InCells:
     def _nearest(self, blocks: RefinementBase, halvings: int) -> LeveledCells:
         levels = np.zeros(blocks.positions.shape, np.int32)
         cells = LeveledCells(blocks, halvings, levels)
-        levels[:, 0] = np.rint(blocks.offsets[:, 0] / cells.layer.step)
-        levels[:, 1:] = np.rint(blocks.offsets[:, 1:] / cells.steps[:, 1:])
+        heights, shifts = blocks.offsets[:, 0], blocks.offsets[:, 1:]
+        levels[:, 0] = np.rint(heights / cells.layer.step)
+        levels[:, 1:] = np.rint(shifts / cells.steps[:, 1:])
         return self._fitted(cells, first=0)
 
     def _fitted(self, cells: LeveledCells, first: int) -> LeveledCells:
         """Return levels, from the first axis on, that leave little to vertices."""
-        levels, steps = cells.levels.copy(), cells.steps
+        levels = cells.levels.copy()
+        steps = cells.steps
         places = cells.blocks.moved(cells.layer, levels, steps)
         self._fit.level(cells.blocks.frames, steps, places, levels, first)
         return replace(cells, levels=levels)
