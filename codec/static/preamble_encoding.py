@@ -344,7 +344,7 @@ def prepare(
 
 
 def _in_given_order(prepared: Prepared, joined: JoinedMesh) -> Prepared:
-    """The same, with the order in the stream: it is decoded in the given one, so for callers nothing has moved."""
+    """Put the given order into a stream: it is decoded in that order, so for callers nothing has moved."""
     order = joined.coding.order(joined.original_positions)
     return replace(
         prepared,

@@ -143,7 +143,7 @@ def qualities(
 
 
 def _usual_quality(attribute: Attribute, grade: Grade) -> Quality:
-    """The quality of an attribute of which nobody says anything."""
+    """The quality of an attribute without a request."""
     if attribute.values.dtype.kind != "f":
         return Quality("exact")
     if attribute.semantic == "generic" and _are_few_and_whole(attribute.values):

@@ -180,7 +180,7 @@ class Bounds:
         return max(self._shares(candidate, look)) <= 1.0
 
     def broken_by(self, candidate: Trial, look: float | None = None) -> str:
-        """Return what the best positions that were seen break, in words; empty where a trial keeps all bounds."""
+        """Return the bounds that the best positions broke that were seen; empty where a trial keeps all."""
         if self.keeps(candidate, look):
             return ""
         return self.had
