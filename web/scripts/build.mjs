@@ -5,6 +5,7 @@ import { dirname, join, relative } from "node:path";
 import { build, transform } from "esbuild";
 import { minify } from "terser";
 import { compileKernels, compiler, fingerprint, KERNEL_BUILDS, WEB } from "./kernels.mjs";
+import { drawingOnly } from "./three.mjs";
 
 const VIEWER = join(WEB, "../src/bsm/viewer");
 const SOURCES = join(WEB, "src");
@@ -180,7 +181,7 @@ async function inlined() {
 
 /** Methods that only code of the same thread calls: no message has them, nor the platform. */
 const INNER =
-    "receiveData receiveEof nextEvent receiveBlock nextBlock release doubles creased grown addFrame startRun flush settle placesOf guarded findHelpers accept pause bounds crc32 crc16 charge losses handed located described moved changes wishes members onBlock onOver engine carried".split(
+    "receiveData receiveEof nextEvent receiveBlock nextBlock release doubles creased grown addFrame startRun flush settle placesOf guarded findHelpers accept pause bounds crc32 crc16 charge losses handed located described moved changes wishes members onBlock onOver engine carried attribute begin decoder finish growing hear last listener metadata moves points received report rows sources state text waiting".split(
         " ",
     );
 
@@ -207,7 +208,7 @@ async function products() {
             await bundle(join(SOURCES, "viewer/viewer.ts"), {
                 define,
                 mangleProps,
-                plugins: [await inlined(), STYLED],
+                plugins: [await inlined(), STYLED, drawingOnly(WEB)],
             }),
         )
     ).replaceAll("</script", "<\\/script");

@@ -4,7 +4,7 @@ import { EncodeError, encodeWith, type Answer, type EncodeOptions, type MeshInpu
 import { compiled, once, resolved } from "./fetched";
 import { sayAlone, started } from "./threads";
 
-export { EncodeError, encodeWith } from "./encoding";
+export { EncodeError, encodeWith };
 export type { AttributeInput, EncodeOptions, MeshInput, Quality } from "./encoding";
 
 /** A `BufferGeometry` or an `Object3D` of three.js. */
@@ -16,24 +16,24 @@ const [THREAD, HERE] = ["encode-worker.js", import.meta.url];
 const load = once((url: string) => compiled(new URL(url)));
 
 /** The compiled encoder of meshes, or of sequences. */
-export function loadEncoder(wasm?: EncodeOptions["wasm"], moves = false): Promise<WebAssembly.Module> {
-    if (wasm instanceof WebAssembly.Module) return Promise.resolve(wasm);
+export async function loadEncoder(wasm?: EncodeOptions["wasm"], moves = false): Promise<WebAssembly.Module> {
+    if (wasm instanceof WebAssembly.Module) return wasm;
     const given =
         wasm ?? (moves ? new URL("./encode-moving.wasm", import.meta.url) : new URL("./encode.wasm", import.meta.url));
     if (typeof given !== "string" && !(given instanceof URL)) return WebAssembly.compile(given);
     return load(resolved(given).href);
 }
 
-/** A mesh as it is given, or as three.js draws it, which is there then. */
-async function wholeOf(input: Encodable, { onNote }: EncodeOptions): Promise<MeshInput> {
-    if ("positions" in input) return input;
-    return (await import("./content")).meshOf(input as BufferGeometry | Object3D, onNote);
+/** The encoder that a mesh needs, and the mesh as it is given, or as three.js draws it, which is there then. */
+async function prepared(input: Encodable, { onNote, wasm }: EncodeOptions): Promise<[WebAssembly.Module, MeshInput]> {
+    const isMesh = "positions" in input;
+    const mesh = isMesh ? input : (await import("./content")).meshOf(input as BufferGeometry | Object3D, onNote);
+    return [await loadEncoder(wasm, Boolean(mesh.frames)), mesh];
 }
 
 /** Encode in this thread, which waits for that. */
 export async function encodeHere(input: Encodable, options: EncodeOptions = {}): Promise<Bytes> {
-    const mesh = await wholeOf(input, options);
-    return encodeWith(await loadEncoder(options.wasm, Boolean(mesh.frames)), mesh, options);
+    return encodeWith(...(await prepared(input, options)), options);
 }
 
 /**
@@ -42,10 +42,9 @@ export async function encodeHere(input: Encodable, options: EncodeOptions = {}):
  *     const bytes = await encode(mesh.geometry, { bits: 14, onProgress: console.log });
  */
 export async function encode(input: Encodable, options: EncodeOptions = {}): Promise<Bytes> {
-    const { onProgress, onNote: _, signal, wasm, ...plain } = options;
+    const { onProgress, onNote: _, signal, wasm: __, ...plain } = options;
     signal?.throwIfAborted();
-    const mesh = await wholeOf(input, options);
-    const module = await loadEncoder(wasm, Boolean(mesh.frames));
+    const [module, mesh] = await prepared(input, options);
     const alone = (): Bytes => (sayAlone(), encodeWith(module, mesh, options));
     const worker = started(
         () => new Worker(new URL("./encode-worker.js", import.meta.url), { type: "module" }),

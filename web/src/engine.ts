@@ -45,12 +45,18 @@ const VIEWS: ViewType<ArrayLike<number>>[] = [
     Float32Array,
     Float64Array,
 ];
-const [WHOLE, NUMBER, TEXT] = [1, 2, 3];
+const enum Kind {
+    WHOLE = 1,
+    NUMBER,
+    TEXT,
+}
 const TEXTS = new TextDecoder("utf-8", { ignoreBOM: true });
 const LAST_ATTRIBUTE = 255;
-const [ENTRY_BYTES, ATTRIBUTE_BYTES] = [48, 56];
+const ENTRY_BYTES = 48;
+const ATTRIBUTE_BYTES = 56;
 /** The record of a header in C: numbers of each key, and how many they are. */
-const [KEYS, MOST_LIST] = [1 + Math.max(...Object.values(HEADER_KEYS)), 8];
+const KEYS = 1 + Math.max(...Object.values(HEADER_KEYS));
+const MOST_LIST = 8;
 
 /** Fields of a header that are one number. */
 const NUMBERS = [
@@ -86,20 +92,20 @@ export class Engine extends Memory {
 
     push(data: Uint8Array): void {
         if (data.length === 0) return;
-        this.held([data], (at) => this.call("bsmdec_push", this.decoder, at, data.length));
+        this.held([data], (at) => this.invoke("bsmdec_push", this.decoder, at, data.length));
     }
 
     finish(): void {
-        this.call("bsmdec_finish", this.decoder);
+        this.invoke("bsmdec_finish", this.decoder);
     }
 
     /** Let helpers have the chains that are not the decoder's own. */
     share(among: number): void {
-        this.call("page_share", among);
+        this.invoke("page_share", among);
     }
 
     next(): RawEvent {
-        const at = this.call("page_next");
+        const at = this.invoke("page_next");
         const view = new DataView(this.buffer, at);
         const [index, count, vertices, faces] = [8, 16, 24, 32].map((at) => Number(view.getBigInt64(at, true)));
         return { type: view.getInt32(0, true), index, count, vertices, faces };
@@ -107,7 +113,7 @@ export class Engine extends Memory {
 
     /** The first error of the stream; the loss that was reported last. */
     error(isLoss = false): BsmError {
-        const at = this.call("page_error", isLoss ? 1 : 0);
+        const at = this.invoke("page_error", isLoss ? 1 : 0);
         const view = new DataView(this.buffer, at);
         const [offset, frame, block] = [8, 16, 24]
             .map((place) => Number(view.getBigInt64(place, true)))
@@ -121,11 +127,11 @@ export class Engine extends Memory {
 
     /** Bytes that were made use of, work that was charged, vertices that the faces so far have. */
     get state(): readonly [position: number, work: number, vertices: number] {
-        return [...this.doubles(this.call("page_state"), 3)] as [number, number, number];
+        return [...this.doubles(this.invoke("page_state"), 3)] as [number, number, number];
     }
 
     header(): Header {
-        const at = this.call("page_header");
+        const at = this.invoke("page_header");
         const record = this.doubles(at, KEYS * MOST_LIST);
         const counts = this.copied(Int32Array, at + 8 * KEYS * MOST_LIST, KEYS);
         const listOf = (key: number): number[] => [...record.subarray(MOST_LIST * key, MOST_LIST * key + counts[key])];
@@ -146,18 +152,18 @@ export class Engine extends Memory {
         const entries: Metadata = new Map();
         this.lent(ENTRY_BYTES, (at) => {
             for (let index = from; index < to; index++) {
-                this.call("page_metadata", index, at);
+                this.invoke("page_metadata", index, at);
                 const view = new DataView(this.buffer, at);
                 const type = view.getInt32(4, true);
                 const bytes = this.copied(Uint8Array, view.getUint32(24, true), view.getUint32(28, true));
                 const whole = view.getBigInt64(8, true);
                 const integer = whole >= -(2n ** 31n) && whole < 2n ** 32n ? Number(whole) : whole;
                 const value =
-                    type === WHOLE
+                    type === Kind.WHOLE
                         ? integer
-                        : type === NUMBER
+                        : type === Kind.NUMBER
                           ? view.getFloat64(16, true)
-                          : type === TEXT
+                          : type === Kind.TEXT
                             ? TEXTS.decode(bytes)
                             : bytes;
                 entries.set(this.text(view.getUint32(0, true)), value);
@@ -200,7 +206,7 @@ export class Engine extends Memory {
     /** An attribute, if it is whole, and moves where that is asked for. */
     attribute(index: number, moving = false): Attribute | undefined {
         return this.lent(ATTRIBUTE_BYTES, (at) => {
-            if (this.call("bsmdec_attribute_at", this.decoder, index, at) !== 0) return undefined;
+            if (this.invoke("bsmdec_attribute_at", this.decoder, index, at) !== 0) return undefined;
             const view = new DataView(this.buffer, at);
             const [domain, semantic, kind, components] = [4, 8, 12, 16].map((place) => view.getInt32(place, true));
             const [rows, corners] = [24, 32].map((place) => Number(view.getBigInt64(place, true)));
@@ -247,12 +253,12 @@ export class Engine extends Memory {
     }
 
     add({ index, block }: SharedBlock): void {
-        if (!block) return void this.call("page_lose", index);
+        if (!block) return void this.invoke("page_lose", index);
         const [, vertices, positions, weights] = this.rows("page_room", block.vertices.length);
         new Int32Array(this.buffer, vertices).set(block.vertices);
         new Float64Array(this.buffer, positions).set(block.positions);
         new Float64Array(this.buffer, weights).set(block.weights);
-        if (!this.call("page_add", index)) throw new RangeError("a block of another mesh");
+        if (!this.invoke("page_add", index)) throw new RangeError("a block of another mesh");
     }
 
     /** Leave the memory to the next decoder. */
@@ -262,7 +268,7 @@ export class Engine extends Memory {
 
     /** A count and three places; without them the error of the stream is thrown. */
     private rows(name: string, ...args: number[]): Uint32Array {
-        const at = this.call(name, ...args);
+        const at = this.invoke(name, ...args);
         if (at === 0) throw this.error();
         return new Uint32Array(this.buffer, at, 4).slice();
     }
@@ -275,7 +281,7 @@ export class Engine extends Memory {
     /** An array that a function fills, which takes the decoder, `given`, the place and the size. */
     private filled<View>(kind: ViewType<View>, count: number, name: string, ...given: number[]): View {
         return this.lent(Math.max(1, count) * kind.BYTES_PER_ELEMENT, (at) => {
-            if (this.call(name, this.decoder, ...given, at, count) !== 0) throw this.error();
+            if (this.invoke(name, this.decoder, ...given, at, count) !== 0) throw this.error();
             return this.copied(kind, at, count);
         });
     }

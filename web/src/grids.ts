@@ -17,7 +17,10 @@ import { demand, frameOf, parseVarint } from "./varint";
 export type GridEvent = EventOf<"header" | "metadata" | "connectivity" | "block" | "end">;
 
 /** Nanoseconds of a processor core for reading a frame, whatever it is, and for each of its bytes (M 14.3). */
-const [FRAME, BYTE, METADATA, ENTRY] = [8e3, 8, 2e4, 8e3];
+const FRAME = 8e3;
+const BYTE = 8;
+const METADATA = 2e4;
+const ENTRY = 8e3;
 const MAGIC_SIZE = 4;
 /** A version that differs only in these bits is another minor one. */
 const MINORS = 15;
@@ -38,28 +41,28 @@ class Light extends Memory {
 
     /** CRC-32 of zlib; `before` is that of the bytes in front. */
     crc32(data: Uint8Array, before = 0): number {
-        return this.held([data], (at) => this.call("light_sum", at, data.length, before));
+        return this.held([data], (at) => this.invoke("light_sum", at, data.length, before));
     }
 
     /** CRC-16 called XMODEM. */
     crc16(data: Uint8Array): number {
-        return this.held([data], (at) => this.call("light_short_sum", at, data.length));
+        return this.held([data], (at) => this.invoke("light_short_sum", at, data.length));
     }
 
     /** CRC-32 of the positions, in which -0 is 0 (F 5.10). */
     get sum(): number {
-        return this.call("light_sum_of_positions");
+        return this.invoke("light_sum_of_positions");
     }
 
     /** Charge work, and the bytes that ask for it (M 14.3). */
     charge(work: number, received: number): void {
-        this.check(this.call("light_charge", work, received));
+        this.check(this.invoke("light_charge", work, received));
     }
 
     begin({ vertices, faces, grid, lattice, corner, center, scale, congruence }: Header): void {
         const [three, two] = [corner.length ? corner : [0, 0, 0], lattice.length ? lattice : [0, 0]];
         const numbers = [vertices, faces, scale, ...grid, ...center, ...three, ...two, congruence];
-        this.held([new Float64Array(numbers)], (at) => this.check(this.call("light_begin", at)));
+        this.held([new Float64Array(numbers)], (at) => this.check(this.invoke("light_begin", at)));
     }
 
     faces(payload: Uint8Array, count: number): Int32Array {
@@ -67,7 +70,7 @@ class Light extends Memory {
     }
 
     /** Where the positions are, once those of `count` vertices from `first` on are there. */
-    decode(payload: Uint8Array, first: number, count: number): number {
+    placesOf(payload: Uint8Array, first: number, count: number): number {
         return this.given("light_positions", payload, first, count);
     }
 
@@ -77,11 +80,11 @@ class Light extends Memory {
     }
 
     private given(name: string, payload: Uint8Array, ...more: number[]): number {
-        return this.held([payload], (at) => this.check(this.call(name, at, payload.length, ...more)));
+        return this.held([payload], (at) => this.check(this.invoke(name, at, payload.length, ...more)));
     }
 
     private check(result: number): number {
-        if (!result) throw errorLike({ name: errorName(this.call("light_error")), problem: "", place: {} });
+        if (!result) throw errorLike({ name: errorName(this.invoke("light_error")), problem: "", place: {} });
         return result;
     }
 }
@@ -236,7 +239,7 @@ export class GridDecoder {
             const { value: count, end: start } = varintIn(payload, end);
             demand(first === this.nextVertex && count > 0 && count <= header.vertices - first);
             this.nextVertex += count;
-            return () => this.decode(first, count, payload.subarray(start));
+            return () => this.decodeChunk(first, count, payload.subarray(start));
         }
         const [crc, sum] = [payload.subarray(end, end + 4), payload.subarray(end + 4)];
         demand(crc.length === 4 && (sum.length === 0 || sum.length === 4));
@@ -262,12 +265,12 @@ export class GridDecoder {
         return () => this.queue.push({ type: "metadata", entries });
     }
 
-    private decode(first: number, count: number, data: Uint8Array): void {
+    private decodeChunk(first: number, count: number, data: Uint8Array): void {
         if (first === 0) {
             const loose = { vertices: new Int32Array(0), positions: new Float64Array(0) };
             this.queue.push({ type: "connectivity", faces: this.faces!, vertices: this.header!.vertices, loose });
         }
-        const places = this.engine.decode(data, first, count);
+        const places = this.engine.placesOf(data, first, count);
         const positions = this.engine.doubles(places + 24 * first, 3 * count);
         this.queue.push({
             type: "block",

@@ -37,8 +37,11 @@ const FIELDS = Object.entries(GRID_FIELDS as unknown as Record<string, Field>);
 /** Bytes of a header (F 4.9). */
 const MOST_HEADER = 2 ** 16;
 const LIGHT = 1;
-const WITHOUT_BLOCKS = { blocks: 0, blockSize: 0, coefficients: 0, keyInterval: 0, step: 2 ** -8, smoothing: 0 };
-const WITHOUT_MORE = { attributes: 0, refinement: [], frames: 0, gopFrames: 0, run: 0, again: undefined, bits: 0 };
+/** What light grids have no fields of. */
+const ABSENT = {
+    ...{ blocks: 0, blockSize: 0, coefficients: 0, keyInterval: 0, step: 2 ** -8, smoothing: 0 },
+    ...{ attributes: 0, refinement: [], frames: 0, gopFrames: 0, run: 0, bits: 0 },
+};
 
 /** The header of a light grid in a payload; its counts are checked against `limits`. */
 export function parseHeader(payload: Uint8Array, limits: Limits): Header {
@@ -48,7 +51,7 @@ export function parseHeader(payload: Uint8Array, limits: Limits): Header {
     const isOther = [...entries.keys()].some((key) => !FIELDS.some(([, field]) => field.key === key));
     if (isOther || entries.get(light.key)?.value !== LIGHT || !entries.has(grid.key)) throw new UnsupportedError("");
     const contents = FIELDS.map(([name, field]) => [name, contentOf(field, entries.get(field.key))]);
-    const header = { ...WITHOUT_BLOCKS, ...WITHOUT_MORE, ...(Object.fromEntries(contents) as Fields) };
+    const header = { ...ABSENT, ...(Object.fromEntries(contents) as Fields) };
     check(header);
     checkLimit(limits, "vertices", header.vertices);
     checkLimit(limits, "faces", header.faces);

@@ -5,18 +5,21 @@ import type { Exports, Kernels } from "./kernels";
 import { DEFAULT_LIMITS, type Limits } from "./limits";
 
 const NAMES: Record<number, string> = {
-    3: "Format",
-    4: "Corrupt",
-    5: "Unsupported",
-    6: "Limit",
-    7: "Numeric",
-    8: "Limit",
-    12: "Truncated",
+    3: "FormatError",
+    4: "CorruptError",
+    5: "UnsupportedError",
+    6: "LimitError",
+    7: "NumericError",
+    8: "LimitError",
+    12: "TruncatedError",
 };
+
+/** Limits in the order of `bsmdec_limits`, as far as that is the one of the constants. */
+const COUNTS = Object.keys(DEFAULT_LIMITS).slice(0, 12) as (keyof Limits)[];
 
 /** The name of the error that a status of library/bsmdec.h means. */
 export function errorName(status: number): string {
-    return `${NAMES[status] ?? "Bsm"}Error`;
+    return NAMES[status] ?? "BsmError";
 }
 
 /** The box around vertices, its center, and how far from that the farthest one is. */
@@ -59,32 +62,16 @@ export class Memory {
         ...more: number[]
     ) {
         this.exports = kernels.borrow();
-        const l = { ...DEFAULT_LIMITS, ...limits };
+        const all = { ...DEFAULT_LIMITS, ...limits };
+        const { work, workPerVertex, workPerByte, memory, memoryPerByte, blockMemory, blockMemoryPerVertex } = all;
         const bounds = [
-            l.vertices,
-            l.faces,
-            l.blocks,
-            l.blockSize,
-            l.coefficients,
-            l.frames,
-            l.gopFrames,
-            l.frameBytes,
-            l.metadataBytes,
-            l.attributes,
-            l.attributeValues,
-            l.sequenceBytes,
-            l.memory,
-            l.work,
-            l.workPerVertex,
-            l.workPerByte,
-            Infinity,
-            l.blockMemory,
-            l.blockMemoryPerVertex,
-            l.memoryPerByte,
-            Infinity,
-            l.memory,
+            ...COUNTS.map((name) => all[name]),
+            memory,
+            ...[work, workPerVertex, workPerByte, Infinity],
+            ...[blockMemory, blockMemoryPerVertex, memoryPerByte, Infinity],
+            memory,
         ];
-        this.decoder = this.held([new Float64Array(bounds)], (at) => this.call(begin, at, ...more));
+        this.decoder = this.held([new Float64Array(bounds)], (at) => this.invoke(begin, at, ...more));
         if (!this.decoder) throw new LimitError("this machine has no memory for a decoder");
     }
 
@@ -92,7 +79,7 @@ export class Memory {
         return this.own.memory.buffer;
     }
 
-    protected call(name: string, ...args: number[]): number {
+    protected invoke(name: string, ...args: number[]): number {
         const { own } = this;
         try {
             return (own[name] as (...args: number[]) => number)(...args) >>> 0;
@@ -114,7 +101,7 @@ export class Memory {
                 const { first, positions } = changes;
                 const chosen = first === undefined ? changes.vertices : new Int32Array(0);
                 this.held([positions, chosen], (rows, places) =>
-                    this.call(
+                    this.invoke(
                         "page_move",
                         rows,
                         positions.length / 3,
@@ -144,7 +131,7 @@ export class Memory {
         const arrays = [faces, origin, points, news, new Int32Array(size + 1), new Float32Array(6 * size)];
         return this.held(arrays, (corners, origins, at, fresh, list, places) => {
             const normals = places + 12 * size;
-            const count = this.call(
+            const count = this.invoke(
                 "page_grow",
                 corners,
                 faces.length,
@@ -172,7 +159,7 @@ export class Memory {
         const work = new Int32Array(2 * size + 3 * corners);
         const arrays = [faces, points, new Int32Array(corners), work, new Float64Array(corners)];
         return this.held(arrays, (list, at, source, scratch, normals) => {
-            const count = this.call("page_crease", list, corners, at, size, least, source, scratch, normals);
+            const count = this.invoke("page_crease", list, corners, at, size, least, source, scratch, normals);
             if (count === 0) return undefined;
             return [this.copied(Int32Array, list, corners), this.copied(Int32Array, source, count)];
         });
@@ -180,7 +167,7 @@ export class Memory {
 
     bounds(points: Float32Array): Bounds {
         return this.held([points, new Float64Array(10)], (at, found) => {
-            this.call("page_bounds", at, points.length / 3, found);
+            this.invoke("page_bounds", at, points.length / 3, found);
             const [lx, ly, lz, hx, hy, hz, x, y, z, radius] = this.doubles(found, 10);
             return { low: [lx, ly, lz], high: [hx, hy, hz], center: [x, y, z], radius };
         });
@@ -206,12 +193,12 @@ export class Memory {
 
     /** The result of `work` with some bytes of the memory, which are free afterwards. */
     protected lent<Result>(size: number, work: (at: number) => Result): Result {
-        const at = this.call("page_take", size);
+        const at = this.invoke("page_take", size);
         if (at === 0) throw new LimitError(`this machine has no ${size} bytes for the decoder`);
         try {
             return work(at);
         } finally {
-            if (this.exports) this.call("page_give", at, size);
+            if (this.exports) this.invoke("page_give", at, size);
         }
     }
 
@@ -219,7 +206,7 @@ export class Memory {
     protected end(name: string): void {
         const { exports } = this;
         if (!exports) return;
-        this.call(name);
+        this.invoke(name);
         this.kernels.take(exports);
         this.exports = undefined;
     }

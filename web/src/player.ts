@@ -30,7 +30,7 @@ const TAP = 6; // pixels that a finger may move while it taps
 const NEAR = { rootMargin: "20%" };
 /** From where it is looked at first, in front and a little above, and how much farther away than would do. */
 const [FRONT, ROOM] = [new Vector3(0.4, 0.3, 1).normalize(), 1.02];
-const REFLECTED = ["src", "poster", "loop", "controls", "autoplay"];
+const REFLECTED = ["src", "alt", "poster", "loop", "controls", "autoplay"];
 const SPACES = { svg: "http://www.w3.org/2000/svg", html: "http://www.w3.org/1999/xhtml" };
 /** Without a document, the class can still be imported. */
 const Base = (globalThis.HTMLElement ?? Object) as typeof HTMLElement;
@@ -47,6 +47,7 @@ export class BSMPlayer extends Base {
         " ",
     );
     declare src: string;
+    declare alt: string;
     declare poster: string;
     declare loop: boolean;
     declare controls: boolean;
@@ -141,13 +142,14 @@ export class BSMPlayer extends Base {
         this.forgo();
     }
 
-    private forgo(): void {
-        for (const [, fail] of this.plays.splice(0)) fail(new DOMException("it will not play", "AbortError"));
+    private forgo(why = new DOMException("it will not play", "AbortError")): void {
+        for (const [, fail] of this.plays.splice(0)) fail(why);
     }
 
     /** Show the time that was asked for, once its frame is there or no more will come. */
     private reach(): void {
         const { due, sequence } = this;
+        if (this.content && !sequence) this.due = undefined; // what does not move has no time
         if (due === undefined || !sequence) return;
         const isThere = due * sequence.rate < sequence.geometry.frames.length;
         if (!isThere && !sequence.complete) return;
@@ -163,7 +165,7 @@ export class BSMPlayer extends Base {
 
     connectedCallback(): void {
         const { camera, canvas, scene } = this;
-        for (const name of [...REFLECTED, "rate"] as "src"[]) {
+        for (const name of [...REFLECTED, "rate", "playbackRate", "currentTime"] as "src"[]) {
             if (!Object.hasOwn(this, name)) continue; // a page set it before there was this class
             const value = this[name];
             Reflect.deleteProperty(this, name);
@@ -206,7 +208,7 @@ export class BSMPlayer extends Base {
     }
 
     attributeChangedCallback(name: string): void {
-        if (name === "src") this.asked = this.due = undefined;
+        if (name === "src") this.asked = undefined;
         if (name === "src" || name === "crease-angle") this.open();
         if (name === "alt" || name === "aria-label") this.describe();
         if (name === "poster") this.hold();
@@ -291,7 +293,7 @@ export class BSMPlayer extends Base {
 
     private fail(error: unknown): void {
         this.note.textContent = error instanceof Error ? error.message : `${error}`;
-        this.forgo();
+        this.forgo(new DOMException(this.note.textContent, "NotSupportedError"));
         this.dispatchEvent(new ErrorEvent("error", { error, message: `${error}` }));
     }
 
@@ -336,13 +338,13 @@ export class BSMPlayer extends Base {
         const content = await sceneOf(geometry);
         if (!mine()) return;
         this.scene.add((this.content = content));
+        this.sequence = sequence;
         this.measure(geometry);
         this.hold();
         this.note.textContent = "";
         this.say("loadeddata");
         for (const [keep] of this.plays.splice(0)) keep();
-        if (!sequence) return;
-        this.sequence = sequence;
+        if (!sequence) return this.reach();
         this.describe();
         [sequence.loop, sequence.speed] = [this.loop, this.rate];
         for (const type of PASSED) sequence.addEventListener(type, (event) => this.say(type, event));
@@ -392,6 +394,7 @@ export class BSMPlayer extends Base {
         this.sequence?.dispose();
         this.content?.traverse((mesh) => (mesh as Partial<Mesh>).geometry?.dispose());
         if (this.content) disposeOf(materialsIn(this.content));
+        if (this.content) this.due = undefined; // a time that was asked for before there was anything stays
         [this.content, this.sequence, this.touched] = [undefined, undefined, false];
         this.redraw();
     }
@@ -424,6 +427,7 @@ function steerBy(bar: HTMLElement, player: BSMPlayer): () => void {
         bar.classList.toggle("still", !(duration > 0));
         bar.classList.toggle("paused", paused);
         button.setAttribute("aria-label", paused ? "Play" : "Pause");
+        range.step = player.sequence ? `${1 / player.sequence.rate}` : "any"; // arrow keys go on by a frame
         [range.max, range.value] = [String(duration), String(currentTime)];
         time.textContent = `${currentTime.toFixed(1)} s of ${duration.toFixed(1)} s`;
         range.setAttribute("aria-valuetext", time.textContent);
@@ -437,7 +441,7 @@ function steerBy(bar: HTMLElement, player: BSMPlayer): () => void {
 
 /** Properties that are attributes. */
 for (const name of REFLECTED) {
-    const isText = name === "src" || name === "poster";
+    const isText = name === "src" || name === "alt" || name === "poster";
     Object.defineProperty(BSMPlayer.prototype, name, {
         get(this: BSMPlayer): unknown {
             return isText ? (this.getAttribute(name) ?? "") : this.hasAttribute(name);

@@ -74,12 +74,12 @@ interface Hand {
     worker: Worker;
     ready: boolean;
     streams: Set<PooledStream>;
-    held: [Message, Transferable[]][];
+    parked: [Message, Transferable[]][];
 }
 
 /** Firefox may lose a line that is handed to a thread that has not begun, so such messages, and later ones, wait. */
 function post(hand: Hand, message: Message, moved: Transferable[]): void {
-    if (!hand.ready && moved.length + hand.held.length > 0) hand.held.push([message, moved]);
+    if (!hand.ready && moved.length + hand.parked.length > 0) hand.parked.push([message, moved]);
     else hand.worker.postMessage(message, moved);
 }
 
@@ -257,11 +257,11 @@ export class Pool {
         const thread = threadOf(build);
         const worker = this.source.worker(thread);
         if (!worker) return void this.settle();
-        const hand: Hand = { thread, worker, ready: false, streams: new Set(), held: [] };
+        const hand: Hand = { thread, worker, ready: false, streams: new Set(), parked: [] };
         worker.onmessage = ({ data }: MessageEvent<Reply>) => {
             if ("ready" in data) {
                 [hand.ready, this.failed] = [true, 0];
-                for (const [message, moved] of hand.held.splice(0)) worker.postMessage(message, moved);
+                for (const [message, moved] of hand.parked.splice(0)) worker.postMessage(message, moved);
             } else for (const stream of hand.streams) if (stream.task === data.task) stream.hear(data);
         };
         worker.onerror = (event) => {

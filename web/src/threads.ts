@@ -20,13 +20,21 @@ export function started(start: () => Worker, address?: () => URL): Worker | unde
     }
 }
 
+/** What pages that demand trusted types take the addresses of scripts from. */
+let policy: { createScriptURL(url: string): string } | undefined;
+interface Policies {
+    createPolicy(name: string, rules: NonNullable<typeof policy>): typeof policy;
+}
+
 /** A thread of a blob that imports the module at an address. */
 function imported(address: () => URL): Worker | undefined {
     let blob = "";
     try {
         const text = `import ${JSON.stringify(address().href)};`;
         blob = URL.createObjectURL(new Blob([text], { type: "text/javascript" }));
-        return new Worker(blob, { type: "module", name: "BSM" });
+        const { trustedTypes } = globalThis as { trustedTypes?: Policies };
+        policy ??= trustedTypes?.createPolicy("bsm-threads", { createScriptURL: (url) => url });
+        return new Worker(policy?.createScriptURL(blob) ?? blob, { type: "module", name: "BSM" });
     } catch {
         return undefined;
     } finally {

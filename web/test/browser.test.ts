@@ -1,5 +1,6 @@
 /** The page in headless Chromium: streams in pieces, draws them, reports the error of a damaged stream. */
 import assert from "node:assert/strict";
+import { createHash } from "node:crypto";
 import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { basename, join } from "node:path";
@@ -294,6 +295,43 @@ describe("the page in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromium a
         assert.ok(counts.red > 0.02 && counts.green > 0.02, JSON.stringify(counts));
         // The red half is the upper one along z, which this mesh calls up.
         assert.ok(counts.redHeight < counts.greenHeight, JSON.stringify(counts));
+        await fresh.close();
+    });
+
+    test("draws all that it can draw where a graphics card does, with reflections", async () => {
+        const fresh = await context.newPage();
+        const errors: string[] = [];
+        fresh.on("console", (message) => void (message.type() === "error" && errors.push(message.text())));
+        await fresh.addInitScript(() => {
+            const { getParameter } = WebGL2RenderingContext.prototype;
+            WebGL2RenderingContext.prototype.getParameter = function (name): unknown {
+                const found: unknown = getParameter.call(this, name);
+                return typeof found === "string" && /swiftshader/i.test(found) ? "a card" : found;
+            };
+        });
+        await fresh.goto(savedPage(folder, { worn: readFileSync(join(VECTORS, "good-attribute-textured.bsm")) }));
+        await fresh.waitForFunction(() => document.querySelector<HTMLSelectElement>("[name=color]")!.value === "own");
+        const pictures = new Map<string, string>();
+        const choices = { color: ["plain", "own"], shading: ["flat", "wire", "smooth"] };
+        const more = { overlay: ["edges", "backs", "normals", ""], axis: ["x", ""] };
+        for (const [name, values] of Object.entries({ ...choices, ...more }))
+            for (const value of values) {
+                await fresh.evaluate(
+                    ([name, value]) => {
+                        const control = document.querySelector<HTMLSelectElement>(`[name=${name}]`)!;
+                        control.value = value;
+                        for (const type of ["input", "change"]) control.dispatchEvent(new Event(type));
+                    },
+                    [name, value],
+                );
+                await fresh.waitForTimeout(1000);
+                const picture = await fresh.locator("canvas").screenshot();
+                pictures.set(`${name} ${value}`, createHash("sha256").update(picture).digest("hex"));
+                const { red, green } = colorsIn(picture);
+                assert.equal(red > 0.02 && green > 0.02, value !== "plain", `${name} ${value}: ${red} ${green}`);
+            }
+        assert.deepEqual(errors, []);
+        assert.ok(new Set(pictures.values()).size >= 5, JSON.stringify([...pictures]));
         await fresh.close();
     });
 

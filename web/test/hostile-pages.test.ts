@@ -103,6 +103,10 @@ const MEANINGS: Record<string, (page: Page, row: Row, surface: Surface) => Promi
         const display = await page.evaluate(() => getComputedStyle(document.querySelector("bsm-player")!).display);
         assert.equal(display, "block");
     },
+    async "draws in a thread"(...given) {
+        await MEANINGS.draws(...given);
+        assert.ok(given[0].workers().length > 0, "the page decodes by itself");
+    },
     async "says why"(page) {
         const text = await page.evaluate(
             () => (document.querySelector("bsm-player")?.shadowRoot ?? document).querySelector("p")!.textContent,

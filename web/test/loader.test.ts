@@ -653,6 +653,42 @@ describe(
             assert.deepEqual([seen.duration, seen.meshes], [0, 3]);
         });
 
+        test("is an element that takes the words of <video> before and after it has anything", async () => {
+            const seen = await found(
+                `
+            await import("/bsm/player.js");
+            const player = document.createElement("bsm-player");
+            const occurred = (type) => new Promise((keep) => player.addEventListener(type, keep, { once: true }));
+            document.body.append(player);
+            const outcome = (promise) => promise.then(() => "plays", ({ name }) => name);
+            player.currentTime = 0.5;
+            player.src = "/stream/good-sequence-learnt.bsm";
+            const first = outcome(player.play());
+            const firstLoad = occurred("load");
+            await occurred("loadeddata");
+            player.pause();
+            await firstLoad;
+            await new Promise((go) => setTimeout(go, 300));
+            const [rate, begun] = [player.sequence.rate, player.sequence.frame];
+            const wrong = occurred("error");
+            player.src = "/stream/no-such-file.bsm";
+            const missing = outcome(player.play());
+            await wrong;
+            const still = occurred("load");
+            player.src = "/stream/${STREAM}.bsm";
+            player.currentTime = 1;
+            const stands = outcome(player.play());
+            await still;
+            const time = player.currentTime;
+            player.remove();
+            return { due: Math.floor(0.5 * rate), begun, outcomes: await Promise.all([first, missing, stands]), time };`,
+                {},
+            );
+            assert.deepEqual(seen.outcomes, ["plays", "NotSupportedError", "plays"]);
+            assert.deepEqual([seen.begun, seen.time], [Math.min(Number(seen.due), Number(seen.begun)), 0]);
+            assert.ok(Number(seen.begun) > 0, JSON.stringify(seen));
+        });
+
         test("is an element with a poster until it draws, an ErrorEvent, and keys that turn, zoom, play and pause", async () => {
             const seen = await found(
                 `

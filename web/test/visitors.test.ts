@@ -199,15 +199,37 @@ describe("visitors", { skip: !existsSync(CHROMIUM) && `no Chromium at ${CHROMIUM
         const page = await opened();
         const found = await page.evaluate(async (name) => {
             const player = document.body.appendChild(document.createElement("bsm-player"));
-            [player.src, player.controls] = [`/stream/${name}.bsm`, true];
+            [player.src, player.controls, player.alt] = [`/stream/${name}.bsm`, true, "a horse"];
+            [player.playbackRate, player.currentTime] = [2, 99];
             const loaded = new Promise((go) => player.addEventListener("load", go));
             await import("bsm-decoder/player" as string);
             await loaded;
+            await new Promise((go) => setTimeout(go, 300));
             const before = [player.hasAttribute("src"), player.hasAttribute("controls")];
+            before.push(player.canvas.ariaLabel === "a horse", player.rate === 2, player.ended);
             [player.src, player.controls] = [undefined, undefined] as unknown as [string, boolean];
             return [...before, player.hasAttribute("src"), player.hasAttribute("controls")];
-        }, STREAM);
-        assert.deepEqual(found, [true, true, false, false]);
+        }, MOVING);
+        assert.deepEqual(found, [true, true, true, true, true, false, false]);
+        await page.context().close();
+    });
+
+    test("go on by a frame with each arrow key, and to the last one with End", async () => {
+        const page = await playing({}, 'controls style="height: 300px"');
+        const frame = (): Promise<number> => page.evaluate(() => document.querySelector("bsm-player")!.sequence!.frame);
+        const slider = page.getByRole("slider", { name: "Time" });
+        for (const [key, due] of [
+            ["ArrowRight", 1],
+            ["ArrowRight", 2],
+            ["ArrowRight", 3],
+            ["ArrowLeft", 2],
+            ["Home", 0],
+        ] as const) {
+            await slider.press(key);
+            assert.equal(await frame(), due, key);
+        }
+        await slider.press("End");
+        assert.equal(await page.evaluate(() => document.querySelector("bsm-player")!.ended), true);
         await page.context().close();
     });
 
