@@ -45,11 +45,9 @@ const VIEWS: ViewType<ArrayLike<number>>[] = [
     Float32Array,
     Float64Array,
 ];
-const enum Kind {
-    WHOLE = 1,
-    NUMBER,
-    TEXT,
-}
+const WHOLE = 1;
+const NUMBER = 2;
+const TEXT = 3;
 const TEXTS = new TextDecoder("utf-8", { ignoreBOM: true });
 const LAST_ATTRIBUTE = 255;
 const ENTRY_BYTES = 48;
@@ -159,11 +157,11 @@ export class Engine extends Memory {
                 const whole = view.getBigInt64(8, true);
                 const integer = whole >= -(2n ** 31n) && whole < 2n ** 32n ? Number(whole) : whole;
                 const value =
-                    type === Kind.WHOLE
+                    type === WHOLE
                         ? integer
-                        : type === Kind.NUMBER
+                        : type === NUMBER
                           ? view.getFloat64(16, true)
-                          : type === Kind.TEXT
+                          : type === TEXT
                             ? TEXTS.decode(bytes)
                             : bytes;
                 entries.set(this.text(view.getUint32(0, true)), value);

@@ -52,6 +52,8 @@ export class BSMPlayer extends Base {
     declare loop: boolean;
     declare controls: boolean;
     declare autoplay: boolean;
+    /** What `<video>` calls `rate`. */
+    declare playbackRate: number;
     readonly loader = new BSMLoader();
     readonly scene = new Scene();
     readonly camera = new PerspectiveCamera(35);
@@ -93,14 +95,6 @@ export class BSMPlayer extends Base {
 
     set rate(rate: number) {
         this.setAttribute("rate", `${rate}`);
-    }
-
-    get playbackRate(): number {
-        return this.rate;
-    }
-
-    set playbackRate(rate: number) {
-        this.rate = rate;
     }
 
     get paused(): boolean {
@@ -452,6 +446,9 @@ for (const name of REFLECTED) {
         },
     });
 }
+
+const { rate } = Object.getOwnPropertyDescriptors(BSMPlayer.prototype);
+Object.defineProperty(BSMPlayer.prototype, "playbackRate", rate);
 
 if (globalThis.customElements && !customElements.get("bsm-player")) customElements.define("bsm-player", BSMPlayer);
 

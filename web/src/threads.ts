@@ -20,11 +20,11 @@ export function started(start: () => Worker, address?: () => URL): Worker | unde
     }
 }
 
-/** What pages that demand trusted types take the addresses of scripts from. */
-let policy: { createScriptURL(url: string): string } | undefined;
-interface Policies {
-    createPolicy(name: string, rules: NonNullable<typeof policy>): typeof policy;
+/** What browsers have in `trustedTypes`, as far as it is used here. */
+export interface Policies {
+    createPolicy<Rules extends Record<string, (text: string) => string>>(name: string, rules: Rules): Rules;
 }
+let policy: { createScriptURL: (url: string) => string } | undefined;
 
 /** A thread of a blob that imports the module at an address. */
 function imported(address: () => URL): Worker | undefined {
@@ -33,7 +33,7 @@ function imported(address: () => URL): Worker | undefined {
         const text = `import ${JSON.stringify(address().href)};`;
         blob = URL.createObjectURL(new Blob([text], { type: "text/javascript" }));
         const { trustedTypes } = globalThis as { trustedTypes?: Policies };
-        policy ??= trustedTypes?.createPolicy("bsm-threads", { createScriptURL: (url) => url });
+        policy ??= trustedTypes?.createPolicy("bsm-threads", { createScriptURL: (url: string) => url });
         return new Worker(policy?.createScriptURL(blob) ?? blob, { type: "module", name: "BSM" });
     } catch {
         return undefined;

@@ -10,8 +10,8 @@ export function listenToKeys(form: Form, stage: Stage, meshes: Comparison): void
     const acts: Record<string, () => void> = {
         w: () => mode("wipe"),
         s: () => mode("split"),
-        f: () => stage.home(),
-        home: () => stage.home(),
+        f: () => stage.look(),
+        home: () => stage.look(),
         m: () => form.control("full").click(),
         d: () => form.pick("shading", SHADINGS[(SHADINGS.indexOf(form.picked("shading")) + 1) % SHADINGS.length]),
         e: () => meshes.toggleErrors(),

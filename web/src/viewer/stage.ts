@@ -157,7 +157,7 @@ export class Stage {
             if (this.fast) reflect();
             this.redraw();
         });
-        canvas.addEventListener("dblclick", () => this.home());
+        canvas.addEventListener("dblclick", () => this.look());
         this.light = 0;
         this.ground.rotation.x = -Math.PI / 2;
         this.ground.visible = false;
@@ -210,12 +210,7 @@ export class Stage {
         if (!camera.touched) this.aim();
     }
 
-    /** Show everything again, from where it was first seen. */
-    home(): void {
-        this.look();
-    }
-
-    /** Look from a side, by degrees around the upward axis and down from it; without them, from where it was first seen. */
+    /** Show all of it from a side, by degrees around the upward axis and down from it; without them, as it was first seen. */
     look(angles?: [theta: number, phi: number]): void {
         const [theta, phi] = (angles ?? []).map((angle) => angle * MathUtils.DEG2RAD);
         this.side = angles && new Spherical(1, phi, theta);

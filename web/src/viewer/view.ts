@@ -15,6 +15,7 @@ import { messageOf } from "../fetched";
 import { BSMGeometry } from "../geometry";
 import { turnOf } from "../materials";
 import type { Pool, StreamDecoding } from "../pool";
+import type { Policies } from "../threads";
 import { Arrival } from "./arrival";
 import { pictureOf } from "./capture";
 import { Comparison } from "./comparison";
@@ -30,18 +31,14 @@ import { TileSet } from "./tiles";
 import { takeFiles, type Encode } from "./upload";
 import template from "./view.html";
 
-/** What browsers have in `trustedTypes`, as far as it is used here. */
-interface Policies {
-    createPolicy(name: string, rules: { createHTML(text: string): string }): { createHTML(text: string): unknown };
-}
-
 const RULER = 120; // pixels of the longest bar
 const LOST = "The graphics card has dropped the picture (WebGL context lost). Load the page again.";
 const NARROW = 480; // pixels of a page that has no room for it
 
 /** The template as pages take it that demand trusted types: it is a part of this file, and no text of others. */
 const { trustedTypes } = globalThis as { trustedTypes?: Policies };
-const trusted = trustedTypes?.createPolicy("bsm", { createHTML: (text) => text }).createHTML(template) ?? template;
+const trusted =
+    trustedTypes?.createPolicy("bsm", { createHTML: (text: string) => text }).createHTML(template) ?? template;
 
 const stemOf = (name: string): string => name.replace(/\.\w+$/, "");
 
@@ -89,7 +86,7 @@ export class View {
         presets: string[] = [],
     ) {
         root.classList.add("bsm");
-        root.innerHTML = trusted as string;
+        root.innerHTML = trusted;
         this.form = new Form(root);
         this.form.say("licenses", licenses);
         this.form.part("encodes").hidden = !encode;
