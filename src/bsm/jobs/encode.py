@@ -19,7 +19,7 @@ from bsm.account.comparison import (
     worded_errors,
     write_permutation,
 )
-from bsm.account.images import changed, compare_images
+from bsm.account.images import ImageComparison, changed, compare_images
 from bsm.bitstream.errors import HarmError, OptionError, counted
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.geometry.mesh import Metadata
@@ -76,7 +76,9 @@ class EncodeJob(Task):
         # A tree that is decoded with --format same gets the names of its sources back.
         # Names of files may be bytes that are not UTF-8; metadata is.
         name = os.fsencode(Path(self.input).name).decode("utf-8", "replace")
-        origin = {"source_name": name} if self.recursive else {}
+        origin: dict[str, str] = {}
+        if self.recursive:
+            origin["source_name"] = name
         return Wishes(
             keywords={**self.options, "threads": self.threads},
             metadata={**origin, **self.metadata},
@@ -109,9 +111,16 @@ def _digests_one(job: EncodeJob, console: Console) -> Facts:
     return {"images": sorted(digests_in(_read(job).mesh.metadata))}
 
 
+def _reading(job: EncodeJob) -> tuple[Limits, bool | None]:
+    """Return the limits of the input, and whether a process of its own reads it."""
+    if job.untrusted:
+        return Limits.service(), True
+    return DEFAULT_LIMITS, None
+
+
 def _read(job: EncodeJob) -> MeshFile:
-    limits = Limits.service() if job.untrusted else DEFAULT_LIMITS
-    return read_mesh(job.input, job.format, limits, isolated=job.untrusted or None)
+    limits, isolated = _reading(job)
+    return read_mesh(job.input, job.format, limits, isolated=isolated)
 
 
 def encode_one(job: EncodeJob, console: Console) -> Facts:
@@ -130,17 +139,17 @@ def encode_one(job: EncodeJob, console: Console) -> Facts:
         job.frames,
         *(job.options.get(name) for name in _OF_SEQUENCES),
     )
-    plain = all(choice is None for choice in asked)
-    limits, apart = (Limits.service(), True) if job.untrusted else (DEFAULT_LIMITS, None)
+    limits, apart = _reading(job)
     wanted = Wanted(job.options.get("frame_rate") or 0.0, job.animation or "", job.cache_mesh, runs)
     members = _frame_files(job, console)
     # Several meshes in one stream: the user has said that they are frames.
     if members:
         frames = open_frames(members, job.format, limits, wanted, isolated=apart)
         return _encode_sequence(replace(job, members=tuple(members)), wishes, console, frames)
-    sequence = open_sequence(
-        job.input, job.format, None if plain else wanted, limits, isolated=apart
-    )
+    motion: Wanted | None = wanted
+    if all(choice is None for choice in asked):
+        motion = None
+    sequence = open_sequence(job.input, job.format, motion, limits, isolated=apart)
     if sequence is not None:
         if job.frames is not None:
             first, last = frame_range(job.frames)
@@ -210,14 +219,13 @@ def _encode_mesh(job: EncodeJob, wishes: Wishes, console: Console) -> Facts:
         # Before the stream has its name, so that no stream stands beside another's.
         if job.permutation:
             write_permutation(job.permutation, encoder.vertex_order, overwrite=job.force)
-        for name, data in {} if job.dry_run else linked.items():
-            # Linked images are the same for several streams, so a file that exists is replaced by equal bytes.
-            Path(name).parent.mkdir(exist_ok=True)
-            write_output(name, data, overwrite=True, follow=str(Path(name).parents[1]))
+        if not job.dry_run:
+            _write_linked(linked)
     seconds = time.perf_counter() - begin
+    attributes: dict[str, Errors | None] = {}
     # Fewer triangles have other corners, at which attributes cannot be compared.
-    checked = found.apart is None and encoder.decoded
-    attributes = lost_attributes(source.mesh, checked) if checked else {}
+    if found.apart is None and encoder.decoded:
+        attributes = lost_attributes(source.mesh, encoder.decoded)
     notes = [
         *source.notes,
         *given.losses,
@@ -225,14 +233,24 @@ def _encode_mesh(job: EncodeJob, wishes: Wishes, console: Console) -> Facts:
         *(_measured(note, attributes) for note in encoder.notes),
     ]
     notes += given.notes[len(given.losses) :]
+    compared_images: list[ImageComparison] = []
     # Images that stay as they are need no second look, and Pillow takes long to load.
-    written = job.images not in (None, "keep", "none", "link")  # Pillow reads no others
-    anew = compare_images(source.mesh.metadata, given.mesh.metadata) if written else []
-    notes += changed(anew)
+    if job.images not in (None, "keep", "none", "link"):  # Pillow reads no others
+        compared_images = compare_images(source.mesh.metadata, given.mesh.metadata)
+    notes += changed(compared_images)
     more, summary, facts = _result(job, given, found, source.mesh.metadata, linked)
-    facts |= {"attribute_errors": attributes} if attributes else {}
-    facts |= {"images": [image.facts() for image in anew]} if anew else {}
+    if attributes:
+        facts["attribute_errors"] = attributes
+    if compared_images:
+        facts["images"] = [image.facts() for image in compared_images]
     return _finish(job, console, notes + more, summary, seconds, facts)
+
+
+def _write_linked(images: Mapping[str, bytes]) -> None:
+    """Write linked images, which are the same for several streams: equal bytes replace a file that exists."""
+    for name, data in images.items():
+        Path(name).parent.mkdir(exist_ok=True)
+        write_output(name, data, overwrite=True, follow=str(Path(name).parents[1]))
 
 
 def _result(
@@ -240,24 +258,11 @@ def _result(
 ) -> tuple[list[str], str, Facts]:
     """Return notes on images and the look of a stream, its sizes and errors in words, and as facts."""
     encoder, size, promise = found.encoder, found.attempt.size, given.options.promise
-    images = sum(len(value) for value in given.mesh.metadata.values() if isinstance(value, bytes))
-    # Advice only where images are most of the file.
-    # A JPEG loses quality once more, and few bytes.
-    lossless = sum(
-        len(data)
-        for _, data in images_in(given.mesh.metadata).values()
-        if kind_of_image(data) == "png"
-    )
-    smaller = "" if job.images or 2 * lossless < size else "; --images webp:85 makes them smaller"
+    images = _image_bytes(given.mesh.metadata)
+    notes = _notes_on_images(job, given.mesh.metadata, size)
     # Grids say by themselves what they keep. All others without a promise get a measured figure instead.
-    unseen = not given.options.is_grid and (promise is None or promise.look == math.inf)
-    notes = ["left out: images"] if job.images == "none" else []
-    notes += (
-        [f"{images} bytes are {'' if job.images else 'unchanged '}images{smaller}"]
-        if images
-        else []
-    )
-    notes += [f"no look is promised; measured: {encoder.seen(found.attempt)}"] if unseen else []
+    if not given.options.is_grid and (promise is None or promise.look == math.inf):
+        notes.append(f"no look is promised; measured: {encoder.seen(found.attempt)}")
     header = found.attempt.header
     most, wanted = header.block_size, given.options.coefficients
     if wanted is not None and header.blocks and wanted > most:
@@ -269,16 +274,16 @@ def _result(
     (taken, parts), bpv = size_with_parts(job.input, source), 8 * (size - images) / vertices
     beside = {name: len(data) for name, data in linked.items()}
     written = size + sum(beside.values())
-    look = (
-        ""
-        if promise is None or encoder.look is None
-        else f"look {encoder.look:.2f} of {promise.look:g}, "
-    )
-    # The bound that decides is worth a word where it is not the usual one: loosening it makes the file smaller.
-    other = encoder.binding not in ("", "look") and found.apart is None
-    limited = f"limited by the {encoder.binding}, " if other else ""
     summary = f"{counted(vertices=vertices, faces=faces)}, {came_to(taken, written)}, {bpv:.2f} bits per vertex"
-    summary += f"{' without images' if images else ''}; {look}{limited}{errors}"
+    if images:
+        summary += " without images"
+    summary += "; "
+    if promise is not None and encoder.look is not None:
+        summary += f"look {encoder.look:.2f} of {promise.look:g}, "
+    # The bound that decides is worth a word where it is not the usual one: loosening it makes the file smaller.
+    if encoder.binding not in ("", "look") and found.apart is None:
+        summary += f"limited by the {encoder.binding}, "
+    summary += errors
     facts: Facts = {
         "vertices": vertices,
         "faces": faces,
@@ -286,11 +291,10 @@ def _result(
         "output_bytes": written,
         "bytes": size,
     }
-    facts |= (
-        {"bpv_total": bpv}
-        | ({"input_parts": parts, "output_parts": beside} if parts else {})
-        | numbers
-    )
+    facts["bpv_total"] = bpv
+    if parts:
+        facts |= {"input_parts": parts, "output_parts": beside}
+    facts |= numbers
     facts |= {"look": encoder.look, "binding": encoder.binding}
     if job.explain:
         notes += [str(event) for event in encoder.trials]
@@ -298,10 +302,35 @@ def _result(
     return notes, summary, facts
 
 
+def _image_bytes(metadata: Metadata) -> int:
+    return sum(len(value) for value in metadata.values() if isinstance(value, bytes))
+
+
+def _notes_on_images(job: EncodeJob, metadata: Metadata, size: int) -> list[str]:
+    """Return notes on the images in the metadata of a stream of this size."""
+    notes: list[str] = []
+    if job.images == "none":
+        notes.append("left out: images")
+    images = _image_bytes(metadata)
+    if images and job.images:
+        notes.append(f"{images} bytes are images")
+    elif images:
+        note = f"{images} bytes are unchanged images"
+        # A JPEG loses quality once more, and few bytes.
+        pngs = [data for _, data in images_in(metadata).values() if kind_of_image(data) == "png"]
+        # Advice only where images are most of the file.
+        if 2 * sum(map(len, pngs)) >= size:
+            note += "; --images webp:85 makes them smaller"
+        notes.append(note)
+    return notes
+
+
 def _measured(note: str, attributes: Mapping[str, Errors | None]) -> str:
     """Return a note of an encoder; that on an attribute with its largest error."""
     errors = attributes.get(note.partition(": ")[0])
-    return f"{note}; {worded_errors(errors)}" if errors else note
+    if not errors:
+        return note
+    return f"{note}; {worded_errors(errors)}"
 
 
 def _images_of(job: EncodeJob, metadata: Metadata) -> tuple[Metadata, dict[str, bytes]]:
@@ -309,18 +338,20 @@ def _images_of(job: EncodeJob, metadata: Metadata) -> tuple[Metadata, dict[str, 
     # Links of the input lead from another folder.
     metadata = {name: value for name, value in metadata.items() if not is_link(name)}
     if job.images == "link" or job.shared:
-        folder = Path(job.output).parent
+        folder = root = Path(job.output).parent
         # Streams of a tree share one folder of images at its top, so links lead upwards.
-        root = Path(job.follow) if isinstance(job.follow, str) else folder
-        way = "".join(f"{part}/" for part in Path(os.path.relpath(root, folder)).parts)
+        if isinstance(job.follow, str):
+            root = Path(job.follow)
+        path_to_root = Path(os.path.relpath(root, folder))
+        way = "".join(f"{part}/" for part in path_to_root.parts)
         metadata, files = with_links(metadata, way, job.shared)
         return metadata, {str(root / name): data for name, data in files.items()}
     if job.images == "none":
         images = {f"image.{number}.data" for number in images_in(metadata)}
         return {name: value for name, value in metadata.items() if name not in images}, {}
-    return metadata if job.images in (None, "keep") else with_smaller_images(
-        metadata, ImageRule.parse(job.images)
-    ), {}
+    if job.images not in (None, "keep"):
+        metadata = with_smaller_images(metadata, ImageRule.parse(job.images))
+    return metadata, {}
 
 
 def _errors(found: Chosen, simplify: bool, unit: str, per_own: float) -> tuple[str, Facts]:
@@ -334,12 +365,11 @@ def _errors(found: Chosen, simplify: bool, unit: str, per_own: float) -> tuple[s
     words = _length(value, relative, unit)
     names = ("theta_deg", "angle_deg", "nmsve_db", "nmsve_paper_db", "faces_before", "flattened")
     facts: Facts = dict.fromkeys(names)
-    facts |= {
-        "max_error_relative": relative,
-        "error_of": "vertices" if apart is None else "surfaces",
-    }
-    facts |= {"max_error": value, "unit": unit} if unit else {}
+    facts |= {"max_error_relative": relative, "error_of": "vertices"}
+    if unit:
+        facts |= {"max_error": value, "unit": unit}
     if apart is not None:
+        facts["error_of"] = "surfaces"
         facts["faces_before"] = len(found.original.faces)
         return (
             f"{facts['faces_before']} faces before simplifying, surfaces {words} apart where measured",
@@ -351,21 +381,19 @@ def _errors(found: Chosen, simplify: bool, unit: str, per_own: float) -> tuple[s
     }
     mesh = found.encoder.mesh
     facts["flattened"] = flattened(mesh.positions, found.attempt.draft.decoded, mesh.faces)
-    kept = "; all triangles are kept" if simplify else ""
-    kept += (
-        f", {counted(triangles=facts['flattened'])} flattened by rounding"
-        if facts["flattened"]
-        else ""
-    )
-    return (
-        f"largest vertex error {words}, mean normal error {error.angle_deg:.2f} degrees{kept}",
-        facts,
-    )
+    summary = f"largest vertex error {words}, mean normal error {error.angle_deg:.2f} degrees"
+    if simplify:
+        summary += "; all triangles are kept"
+    if facts["flattened"]:
+        summary += f", {counted(triangles=facts['flattened'])} flattened by rounding"
+    return summary, facts
 
 
 def _length(value: float, relative: float, unit: str) -> str:
     share = f"{100 * relative:.3g} % of the diagonal"
-    return f"{value:.3g} {unit} ({share})" if unit else share
+    if not unit:
+        return share
+    return f"{value:.3g} {unit} ({share})"
 
 
 def _encode_sequence(job: EncodeJob, wishes: Wishes, console: Console, source: Frames) -> Facts:
@@ -396,42 +424,45 @@ def _encode_sequence(job: EncodeJob, wishes: Wishes, console: Console, source: F
             write_permutation(job.permutation, encoder.vertex_order, overwrite=job.force)
     seconds = time.perf_counter() - begin
     runs = encoder.run_starts[1:]
-    notes = [*source.notes, *given.losses, *encoder.notes, *([describe_runs(runs)] if runs else [])]
+    notes = [*source.notes, *given.losses, *encoder.notes]
+    if runs:
+        notes.append(describe_runs(runs))
     attributes: dict[str, Errors | None] = {
         name: {"max_error": e} for name, e in encoder.attribute_errors.items()
     }
     notes = [_measured(note, attributes) for note in notes]
-    look, seen = math.inf if chosen.promise is None else chosen.promise.look, encoder.worst_look
+    look, seen = math.inf, encoder.worst_look
+    if chosen.promise is not None:
+        look = chosen.promise.look
+    look_in_words = ""
+    if seen is not None and look != math.inf:
+        look_in_words = f"look {seen:.2f} of {look:g} in the worst frame drawn, "
     # Nothing was promised, but the figure was measured on the way, and costs nothing.
-    if look == math.inf and seen is not None:
+    elif seen is not None:
         where = "in the frame with the largest normal error"
         notes.append(
             f"no look is promised; measured: look {seen:.2g} {where} (the default keeps 1)"
         )
-    kept = (
-        ""
-        if seen is None or look == math.inf
-        else f"look {seen:.2f} of {look:g} in the worst frame drawn, "
-    )
     done, vertices, faces = next(numbers), len(encoder.vertex_order), len(encoder.face_order)
     bpvf = 8 * size / encoder.samples
     paths = job.members or (job.input,)
     is_list = Path(job.input).suffix[1:].lower() in LISTS
+    taken: int | None = None
     # A list from a stranger is only parsed in a process of its own.
-    taken = (
-        None
-        if job.untrusted and is_list
-        else size_of_sequence(paths, source.metadata, job.cache_mesh)
-    )
-    summary = f"{counted(frames=done)} of {counted(vertices=vertices, faces=faces)}{' at the end' if runs else ''}, "
-    summary += f"{came_to(taken, size)}, {bpvf:.3f} bits per vertex and frame; {kept}"
+    if not (job.untrusted and is_list):
+        taken = size_of_sequence(paths, source.metadata, job.cache_mesh)
+    summary = f"{counted(frames=done)} of {counted(vertices=vertices, faces=faces)}"
+    if runs:
+        summary += " at the end"
+    summary += f", {came_to(taken, size)}, {bpvf:.3f} bits per vertex and frame; {look_in_words}"
     unit, per_own = given.unit
     error, relative = encoder.max_error * per_own, encoder.max_error_relative
-    asked = f", {job.options['max_error']} asked for" if job.options.get("max_error") else ""
-    summary += (
-        f"largest vertex error {_length(error, relative, unit)}{asked}, KG error {encoder.kg:.3g} %"
-    )
-    summary += ", copies of a vertex counted once" if job.options.get("kg") else ""
+    summary += f"largest vertex error {_length(error, relative, unit)}"
+    if job.options.get("max_error"):
+        summary += f", {job.options['max_error']} asked for"
+    summary += f", KG error {encoder.kg:.3g} %"
+    if job.options.get("kg"):
+        summary += ", copies of a vertex counted once"
     facts: Facts = {
         "frames": done,
         "vertices": vertices,
@@ -440,11 +471,11 @@ def _encode_sequence(job: EncodeJob, wishes: Wishes, console: Console, source: F
         "output_bytes": size,
     }
     facts |= {"bytes": size, "bpvf_total": bpvf, "kg": finite(encoder.kg)}
-    facts |= {
-        "max_error_relative": relative,
-        **({"max_error": error, "unit": unit} if unit else {}),
-    }
-    facts |= {"attribute_errors": attributes} if attributes else {}
+    facts["max_error_relative"] = relative
+    if unit:
+        facts |= {"max_error": error, "unit": unit}
+    if attributes:
+        facts["attribute_errors"] = attributes
     return _finish(job, console, notes, summary, seconds, facts)
 
 

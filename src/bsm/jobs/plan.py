@@ -62,7 +62,9 @@ def files_in(folders: Sequence[str], read: Sequence[str] = MESH_SUFFIXES) -> lis
         (folder, path) for folder, path in every if path.suffix.lower() in read and path.is_file()
     ]
     if not found:
-        what = "streams" if read == STREAM_SUFFIXES else "mesh files"
+        what = "mesh files"
+        if read == STREAM_SUFFIXES:
+            what = "streams"
         raise OptionError(f"no {what} in {', '.join(folders)} or subfolders ({', '.join(read)})")
     return found
 
@@ -74,15 +76,11 @@ def plan_trees(
     _refuse_name_of_file(output)
     jobs = []
     for folder, path in files_in(folders, read):
-        place = path if output is None else Path(output, path.relative_to(folder))
-        jobs.append(
-            Job(
-                str(path),
-                no_link(str(place.with_suffix(suffix))),
-                follow=output or folder,
-                within=folder,
-            )
-        )
+        place = path
+        if output is not None:
+            place = Path(output, path.relative_to(folder))
+        target = no_link(str(place.with_suffix(suffix)))
+        jobs.append(Job(str(path), target, follow=output or folder, within=folder))
     jobs = apart(jobs, lambda _: suffix)
     refuse_collisions([job.input for job in jobs], [job.output for job in jobs])
     for parent in {Path(job.output).parent for job in jobs}:
@@ -108,13 +106,13 @@ def apart(jobs: Sequence[Job], suffix: Callable[[str], str]) -> list[Job]:
     often = Counter(job.output for job in jobs)
 
     def output(job: Job) -> str:
-        added = suffix(job.input)
-        kept = PurePath(pipes.name_in(job.input) if pipes.is_url(job.input) else job.input).suffix
-        return (
-            job.output
-            if often[job.output] < 2
-            else no_link(f"{job.output.removesuffix(added)}{kept}{added}")
-        )
+        if often[job.output] < 2:
+            return job.output
+        name = job.input
+        if pipes.is_url(name):
+            name = pipes.name_in(name)
+        kept, added = PurePath(name).suffix, suffix(job.input)
+        return no_link(f"{job.output.removesuffix(added)}{kept}{added}")
 
     return [replace(job, output=output(job)) for job in jobs]
 
@@ -124,15 +122,12 @@ def input_names(inputs: Sequence[str]) -> list[str]:
     names: list[str] = []
     for given in inputs:
         name = own_name(given)
-        local = name != given and glob.has_magic(name)  # of a file:// URL, which no shell expands
+        found = [name]
         # A shell expands patterns of local files only.
-        found = (
-            pipes.expanded(name)
-            if pipes.is_url(name)
-            else sorted(glob.glob(name))
-            if local
-            else [name]
-        )
+        if pipes.is_url(name):
+            found = pipes.expanded(name)
+        elif name != given and glob.has_magic(name):  # of a file:// URL, which no shell expands
+            found = sorted(glob.glob(name))
         if not found:
             raise FileNotFoundError(errno.ENOENT, "no such file", given)
         names += found

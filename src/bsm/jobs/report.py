@@ -136,10 +136,11 @@ def read_report(path: str, command: str, options: Facts) -> Earlier:
         raise FormatError(
             f"{path}: this is not a report of bsm; name another with --report"
         ) from error
+    digests = {name: entry.get("output_sha256") for name, entry in files.items()}
     # With other options the results do not count, but the files are still known as those of a run.
-    return Earlier(
-        {name: entry.get("output_sha256") for name, entry in files.items()}, files if same else {}
-    )
+    if not same:
+        files = {}
+    return Earlier(digests, files)
 
 
 def is_report(path: str) -> bool:
@@ -203,7 +204,9 @@ _FIELDS: Mapping[str, Callable[[Any], bool]] = {
 def _entry(given: Any) -> Facts:
     """Check the entry of a file; raise an error that `read_report` catches."""
     entry = dict(given)
-    needed = ("input", "output", *(("error", "exit") if "error" in entry else ()))
+    needed = {"input", "output"}
+    if "error" in entry:
+        needed |= {"error", "exit"}
     for name, fits in _FIELDS.items():
         if (name in needed or entry.get(name) is not None) and not fits(entry[name]):
             raise ValueError(f"{name} is {entry[name]!r}")
@@ -220,7 +223,10 @@ def recorded(work: Work, task: Task, console: Console) -> Facts:
     if before and as_before and before.get("output_sha256") == pipes.digest_of(before["output"]):
         return {**before, "resumed": True}
     apart = replace(console, kept=[])
-    facts = _compared(work, task, apart) if task.output in task.doubtful else work(task, apart)
+    if task.output in task.doubtful:
+        facts = _compared(work, task, apart)
+    else:
+        facts = work(task, apart)
     return {
         "notes": apart.kept,
         **facts,
@@ -250,6 +256,9 @@ def _compared(work: Work, task: Task, console: Console) -> Facts:
 def totals(files: Sequence[Facts]) -> Facts:
     done = [facts for facts in files if facts.keys() - {"input", "output"} and "error" not in facts]
     taken, given = _bytes_of(done, "input"), _bytes_of(done, "output")
+    ratio: float | None = None
+    if given:
+        ratio = taken / given
     return {
         "files": len(files),
         "done": len(done),
@@ -257,7 +266,7 @@ def totals(files: Sequence[Facts]) -> Facts:
         "failed": sum("error" in facts for facts in files),
         "input_bytes": taken,
         "output_bytes": given,
-        "ratio": taken / given if given else None,
+        "ratio": ratio,
         "largest_error": largest_error(done),
     }
 
@@ -274,13 +283,17 @@ def _bytes_of(files: Sequence[Facts], way: str) -> int:
 def largest_error(files: Sequence[Facts]) -> str:
     """The largest vertex error of files, in words; and distance of surfaces."""
     worst: dict[str, Facts] = {}
-    name = "max_error" if (unit := _unit(files)) else "max_error_relative"
+    unit = _unit(files)
+    name, whole = "max_error", ""
+    if not unit:
+        name, whole = "max_error_relative", " of the diagonal"
     for facts in files:
         if facts.get("max_error_relative") is not None:
-            kind = ", surfaces apart" if facts.get("error_of") == "surfaces" else ""
+            kind = ""
+            if facts.get("error_of") == "surfaces":
+                kind = ", surfaces apart"
             # Distances of surfaces and errors of vertices are two measures, and have each a worst file.
             worst[kind] = max(worst.get(kind, facts), facts, key=lambda one: float(one[name]))
-    whole = "" if unit else " of the diagonal"
     return " and ".join(
         f"{_length(facts, unit)}{whole} ({facts['input']}{kind})" for kind, facts in worst.items()
     )
@@ -288,17 +301,19 @@ def largest_error(files: Sequence[Facts]) -> str:
 
 def _unit(files: Sequence[Facts]) -> str:
     """The unit that the errors of all files have; where they differ, errors are relative."""
-    found = {
+    units: set[str] = {
         facts.get("unit", "") for facts in files if facts.get("max_error_relative") is not None
     }
     # Millimeters and inches have no common largest error.
-    return found.pop() if len(found) == 1 else ""
+    if len(units) != 1:
+        return ""
+    return units.pop()
 
 
 def _length(facts: Facts, unit: str) -> str:
-    return (
-        f"{facts['max_error']:.3g} {unit}" if unit else f"{100 * facts['max_error_relative']:.3g} %"
-    )
+    if unit:
+        return f"{facts['max_error']:.3g} {unit}"
+    return f"{100 * facts['max_error_relative']:.3g} %"
 
 
 def table(files: Sequence[Facts]) -> Iterator[str]:
@@ -352,8 +367,17 @@ def _cells(facts: Facts, unit: str) -> str:
     if "error" in facts:
         return f"failed: {facts['error'].splitlines()[-1].removeprefix(facts['input'] + ': ')}"
     taken, given, farthest = map(facts.get, ("input_bytes", "output_bytes", "max_error_relative"))
-    sizes = " ".join(f"{'' if size is None else size:>12}" for size in (taken, given))
-    ratio = f"{taken / given:.2f}" if taken and given else ""
-    error = "" if farthest is None else _length(facts, unit)
-    seconds = "as it was" if "resumed" in facts else f"{facts.get('seconds') or 0.0:.2f}"
-    return f"{sizes} {ratio:>7} {error:>10} {seconds:>8}"
+    ratio, error, seconds = "", "", f"{facts.get('seconds') or 0.0:.2f}"
+    if taken and given:
+        ratio = f"{taken / given:.2f}"
+    if farthest is not None:
+        error = _length(facts, unit)
+    if "resumed" in facts:
+        seconds = "as it was"
+    return f"{_size_cell(taken)} {_size_cell(given)} {ratio:>7} {error:>10} {seconds:>8}"
+
+
+def _size_cell(size: int | None) -> str:
+    if size is None:
+        return " " * 12
+    return f"{size:>12}"

@@ -2,7 +2,7 @@
 
 import os
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass, replace
 from functools import partial
@@ -93,12 +93,16 @@ def run_jobs(
     good = [facts for facts in done if "error" not in facts]
     summed = totals(good)
     taken, given = summed["input_bytes"], summed["output_bytes"]
-    sizes = f", {came_to(taken, given)}" if taken and given else ""
-    sizes += f", largest error {worst}" if (worst := summed["largest_error"]) else ""
+    sizes = ""
+    if taken and given:
+        sizes += f", {came_to(taken, given)}"
+    if summed["largest_error"]:
+        sizes += f", largest error {summed['largest_error']}"
     if asked_once > 1:
         console.note(f"{asked_once} files in all have no unit")
-    for line in table(done) if run.report is not None else ():
-        console.note(line)
+    if run.report is not None:
+        for line in table(done):
+            console.note(line)
     console.note(
         f"{len(good)} of {counted(files=len(done))}{sizes}, {time.perf_counter() - begin:.2f} s"
     )
@@ -117,16 +121,12 @@ def run_many(
     ended: Ended = lambda job, outcome: None,
 ) -> list[Facts]:
     """Do all jobs, and report them in order. A failed job stops only the jobs that need it."""
-    jobs = jobs if run.dask is None else _on_all_machines(jobs)
+    if run.dask is not None:
+        jobs = _on_all_machines(jobs)
     work, earlier, report = _reported(run, asked, work, jobs)
     done: list[Facts] = [{} for _ in jobs]
-    # The size of a remote file costs a request each, and it would only serve a bar.
-    local = [
-        None if job.input == "-" or pipes.is_url(job.input) else pipes.size_of(job.input)
-        for job in jobs
-    ]
     # Work is reported in proportion to these.
-    sizes, finished = [max(size or 0, LEAST) for size in local], 0
+    sizes, finished = [_size_of_input(job) for job in jobs], 0
     # The library's sorter gives out jobs as soon as those before them have ended, in any order.
     order = TopologicalSorter({number: job.after for number, job in enumerate(jobs)})
     order.prepare()
@@ -134,7 +134,9 @@ def run_many(
     def task(number: int) -> Task:
         found = task_of(asked, jobs[number], earlier)
         # A cluster repeats jobs of workers that died.
-        return found if run.dask is None else found.repeated()
+        if run.dask is not None:
+            found = found.repeated()
+        return found
 
     def taken(outcomes: Outcomes, progress: Progress) -> Outcomes:
         nonlocal finished
@@ -189,6 +191,13 @@ def _tasks(order: TopologicalSorter[int], task: Callable[[int], Task]) -> Tasks:
             yield None
 
 
+def _size_of_input(job: Job) -> int:
+    """Return the bytes of an input, as far as a bar needs them: those of a remote file would cost a request."""
+    if job.input == "-" or pipes.is_url(job.input):
+        return LEAST
+    return max(pipes.size_of(job.input) or 0, LEAST)
+
+
 def _reported(
     run: Batch, asked: Task, work: Work, jobs: Sequence[Job]
 ) -> "tuple[Work, Earlier | None, Report | None]":
@@ -206,8 +215,11 @@ def _reported(
         raise OptionError(f"--resume reads a report in JSON; name it .json, not {run.report}")
     refuse_to_overwrite(run.report, asked.force or run.resume)
     command, options = work.__name__, options_of(asked)
-    earlier = read_report(run.report, command, options) if run.resume else NOTHING
-    load = load_stream if getattr(asked, "untrusted", False) else load_mesh
+    earlier, load = NOTHING, load_mesh
+    if run.resume:
+        earlier = read_report(run.report, command, options)
+    if getattr(asked, "untrusted", False):
+        load = load_stream
     report = Report(run.report, command, options, jobs, earlier.files, load)
     return partial(recorded, work), earlier, report
 
@@ -233,19 +245,24 @@ def _in_order(outcomes: Outcomes) -> Outcomes:
 
 
 def task_of(asked: Task, job: Job, earlier: "Earlier | None" = None) -> Task:
-    outputs, before = (earlier.outputs, earlier.files.get(job.output)) if earlier else ({}, None)
-    replaceable = {job.output, *([before["output"]] if before else [])} - {"", "-"}
+    outputs: Mapping[str, str | None] = {}
+    before: Facts | None = None
+    if earlier:
+        outputs, before = earlier.outputs, earlier.files.get(job.output)
+    replaceable = {job.output}
+    if before:
+        replaceable.add(before["output"])
+    replaceable -= {"", "-"}
     # Asked before the work begins. What is made later is the run's own, and may be replaced when a job is repeated.
-    there = {
-        n
-        for n in replaceable
-        if (pipes.state_of_remote(n) is not None if pipes.is_url(n) else os.path.lexists(n))
-    }
+    there = set(filter(_is_there, replaceable))
     named = replaceable & outputs.keys()
     # A file that an earlier run wrote may be replaced if it has not been changed since. Its digest tells that.
     mine = frozenset(
         name for name in named if name not in there or outputs[name] == pipes.digest_of(name)
     )
+    doubtful = frozenset(named - mine)
+    if asked.force:
+        doubtful = frozenset()
     return replace(
         asked,
         input=job.input,
@@ -254,9 +271,16 @@ def task_of(asked: Task, job: Job, earlier: "Earlier | None" = None) -> Task:
         within=job.within,
         before=before,
         replaceable=mine,
-        doubtful=frozenset() if asked.force else frozenset(named - mine),
+        doubtful=doubtful,
         fresh=frozenset(replaceable - named - there),
     )
+
+
+def _is_there(name: str) -> bool:
+    """Whether a file, or an object at a URL, has this name."""
+    if pipes.is_url(name):
+        return pipes.state_of_remote(name) is not None
+    return os.path.lexists(name)
 
 
 def _outcomes(
@@ -277,8 +301,9 @@ def _outcomes(
     # With one process, tasks never wait for each other, so None means that all are done.
     for number, task in iter(partial(next, tasks), None):
         finished += sizes[number]
-        with console.progress(
-            f"{number + 1} of {count}" if count > 1 else "", finished / sum(sizes)
-        ):
+        name = ""
+        if count > 1:
+            name = f"{number + 1} of {count}"
+        with console.progress(name, finished / sum(sizes)):
             outcome = outcome_of(work, task, console)
         yield number, outcome

@@ -100,12 +100,16 @@ def outcome_of(work: Work, task: Task, console: Console) -> Outcome:
 
 def anywhere(name: str) -> str:
     """Return an absolute path, which is valid in every process and on machines that share the folders."""
-    return name if not name or pipes.is_url(name) else os.path.abspath(name)
+    if not name or pipes.is_url(name):
+        return name
+    return os.path.abspath(name)
 
 
 def came_to(taken: int | None, given: int) -> str:
     """Return the bytes of an output, after those of the input if they are known."""
     if not taken or not given:
         return f"{given} bytes"
-    ratio = f"{taken / given:.1f} : 1" if taken >= given else f"1 : {given / taken:.1f}"
+    ratio = f"{taken / given:.1f} : 1"
+    if taken < given:
+        ratio = f"1 : {given / taken:.1f}"
     return f"{taken} -> {given} bytes ({ratio})"
