@@ -101,7 +101,9 @@ def leave(
 ) -> None:
     """Leave a mesh, frames, an error or nothing in shared memory, after asking for the bytes that this takes."""
     rows, parts, total = list[bytes](), list[Any](), 0
-    form = type(result) if type(result) in _ANSWERS else FormatError
+    form: Any = type(result)
+    if form not in _ANSWERS:
+        form = FormatError
     kind: Any
     data: Any
     for value in (_ANSWERS.index(form), *_flat(form, result)):
@@ -129,7 +131,9 @@ def leave(
 
 def _flat(form: Any, value: Any) -> Iterator[Any]:
     if isinstance(form, list) and value is not None:
-        items = list(value.items() if isinstance(value, Mapping) else value)
+        if isinstance(value, Mapping):
+            value = value.items()
+        items = list(value)
         yield len(items)
         for item in items:
             yield from _flat(form[0], item)
@@ -137,11 +141,15 @@ def _flat(form: Any, value: Any) -> Iterator[Any]:
         yield from value
     elif value is not None and form in _PARTS:
         for name, part in _PARTS[form].items():
+            contents = getattr(value, name)
             # They are in the meshes.
-            moving = form is Frames and name == "frames" and value.meshes is not None
-            yield from _flat(part, () if moving else getattr(value, name))
+            if form is Frames and name == "frames" and value.meshes is not None:
+                contents = ()
+            yield from _flat(part, contents)
+    elif isinstance(value, np.generic):
+        yield value.item()
     else:
-        yield value.item() if isinstance(value, np.generic) else value
+        yield value
 
 
 def found_in(memory: int, most: int, limits: Limits, accepted: tuple[type, ...]) -> Any:
@@ -161,10 +169,10 @@ def found_in(memory: int, most: int, limits: Limits, accepted: tuple[type, ...])
     except Exception as error:
         raise FormatError("the process that read this file left no mesh") from error
     if isinstance(result, BsmError):
+        words = result.message[:_MOST_WORDS]
         # Not the words of the child: they may tell to install anything.
-        words = (
-            _MISSING if isinstance(result, errors.DependencyError) else result.message[:_MOST_WORDS]
-        )
+        if isinstance(result, errors.DependencyError):
+            words = _MISSING
         result.message = " ".join(words.splitlines())
         raise result
     return result
@@ -179,19 +187,28 @@ def _read(memory: int, most: int) -> Iterator[Any]:
     for place in range(_COUNT.size, _COUNT.size + count * _ROW.size, _ROW.size):
         number, columns, rows, begin = _ROW.unpack(os.pread(memory, _ROW.size, place))
         kind, begin = _KINDS[number], begin + _COUNT.size + count * _ROW.size
-        plain = np.dtype("uint8" if kind in _PLAIN else kind)
-        taken = rows * columns * plain.itemsize
-        remaining -= taken * (_LETTER if kind is str else 1)
+        element_type = np.dtype("uint8")
+        if kind not in _PLAIN:
+            element_type = np.dtype(kind)
+        taken = cost = rows * columns * element_type.itemsize
+        if kind is str:
+            cost *= _LETTER
+        remaining -= cost
         if remaining < 0 or begin + taken > size:
             raise ValueError("more than there can be")
         data = os.pread(memory, taken, begin)
-        yield _PLAIN[kind][1](data) if kind in _PLAIN else np.ndarray((rows, columns), plain, data)
+        if kind in _PLAIN:
+            yield _PLAIN[kind][1](data)
+        else:
+            yield np.ndarray((rows, columns), element_type, data)
 
 
 def _made(form: Any, values: Iterator[Any], limits: Limits) -> Any:
     if isinstance(form, list):
         count = _made(int | None, values, limits)
-        return None if count is None else [_made(form[0], values, limits) for _ in range(count)]
+        if count is None:
+            return None
+        return [_made(form[0], values, limits) for _ in range(count)]
     if isinstance(form, tuple):
         return [_made(part, values, limits) for part in form]
     if form not in _PARTS:
@@ -212,11 +229,10 @@ def _made(form: Any, values: Iterator[Any], limits: Limits) -> Any:
 def _check(fields: dict[str, Any], limits: Limits) -> None:
     """Check a mesh or frames before they are made, and bring their parts into the right kinds."""
     fields["metadata"], meshes = dict(fields["metadata"]), fields.get("meshes")
-    frames = (
-        fields.get("frames", [fields.get("positions")])
-        if meshes is None
-        else [mesh.positions for mesh in meshes]
-    )
+    if meshes is None:
+        frames = fields.get("frames", [fields.get("positions")])
+    else:
+        frames = [mesh.positions for mesh in meshes]
     counts = {
         "vertices": max(fields.get("rigged", 0), *map(len, frames)),
         "faces": len(fields["faces"]),
@@ -232,4 +248,6 @@ def _check(fields: dict[str, Any], limits: Limits) -> None:
         raise ValueError("arrays of another kind")
     if "meshes" in fields:
         fields["faces"] = TriangleMesh(frames[0], fields["faces"]).faces
-        fields |= {"frames": iter(frames), "meshes": None if meshes is None else iter(meshes)}
+        fields["frames"] = iter(frames)
+        if meshes is not None:
+            fields["meshes"] = iter(meshes)

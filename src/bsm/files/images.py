@@ -49,9 +49,13 @@ class ImageRule:
 def smaller(data: bytes, rule: ImageRule) -> bytes | None:
     """An image by a rule; None if that would not save a tenth of it, or Pillow cannot read it."""
     image, smallest = opened(data), None
+    if image is None:
+        return None
     with suppress(OSError, ValueError):  # what Pillow does not write
-        smallest = _written(image, rule) if image else None
-    return smallest if smallest and len(smallest) <= WORTH * len(data) else None
+        smallest = _written(image, rule)
+    if not smallest or len(smallest) > WORTH * len(data):
+        return None
+    return smallest
 
 
 def opened(data: bytes) -> Any | None:
@@ -80,9 +84,10 @@ def _written(image: Any, rule: ImageRule) -> bytes | None:
         size = (max(1, round(image.width * factor)), max(1, round(image.height * factor)))
         image = image.resize(size, LANCZOS)
     written = io.BytesIO()
-    image.save(
-        written, rule.kind, quality=rule.quality, **({"method": 6} if rule.kind == "webp" else {})
-    )
+    options = {"quality": rule.quality}
+    if rule.kind == "webp":
+        options["method"] = 6
+    image.save(written, rule.kind, **options)
     return written.getvalue()
 
 
@@ -96,9 +101,9 @@ def with_smaller_images(metadata: Metadata, rule: ImageRule) -> Metadata:
         entries[f"image.{number}.data"] = written
         if name:
             new_name = str(PurePath(name).with_suffix(f".{rule.kind}"))
-            entries[f"image.{number}.name"] = (
-                new_name if new_name not in names - {name} else f"{name}.{rule.kind}"
-            )
+            if new_name in names - {name}:
+                new_name = f"{name}.{rule.kind}"
+            entries[f"image.{number}.name"] = new_name
     return entries
 
 
@@ -115,13 +120,12 @@ def size_of_image(data: bytes) -> tuple[int, int]:
         )
         if match[3]:
             return plain[0] & 0x3FFF, plain[1] & 0x3FFF
-        return (
-            (wide + 1, high + 1)
-            if match[1]
-            else (1 + (packed & 0x3FFF), 1 + (packed >> 14 & 0x3FFF))
-        )
-    signed = data.startswith((b"\x89PNG", b"\xff\xd8"))  # a JPEG may contain a smaller one
-    segments = _PNG_OR_JPEG.findall(data) if signed else ()
+        if match[1]:
+            return wide + 1, high + 1
+        return 1 + (packed & 0x3FFF), 1 + (packed >> 14 & 0x3FFF)
+    if not data.startswith((b"\x89PNG", b"\xff\xd8")):
+        return 0, 0
+    segments = _PNG_OR_JPEG.findall(data)  # a JPEG may contain a smaller one
     sizes = (
         (int.from_bytes(a, "big"), int.from_bytes(b, "big"))
         for wide, high, y, x in segments
@@ -181,7 +185,9 @@ class LinkedImage:
         """Say why the image cannot be used; empty if it is whole."""
         if self.data is not None:
             return ""
-        return "is damaged" if self.is_there else "is missing"
+        if self.is_there:
+            return "is damaged"
+        return "is missing"
 
     @property
     def note(self) -> str:

@@ -85,7 +85,9 @@ class StreamInfo:
     def bpvf_total(self) -> float | None:
         """Bits of the whole stream per vertex and frame; None for a mesh."""
         samples = sum(run.vertices * run.frames for run in self.runs)
-        return 8 * self.sizes["total"] / samples if samples else None
+        if not samples:
+            return None
+        return 8 * self.sizes["total"] / samples
 
     @property
     def is_paper(self) -> bool:
@@ -187,21 +189,24 @@ def inspect_stream(chunks: Iterable[bytes], limits: Limits = DEFAULT_LIMITS) -> 
                 entries = packet.entries
                 sizes["metadata"] += packet.payload
             case FrameType.ATTRIBUTE:
-                declared += [packet] if len(runs) == 1 else []
+                if len(runs) == 1:
+                    declared.append(packet)
                 lengths[packet.index] += packet.payload
             case FrameType.VALUES:
                 lengths[packet.index] += packet.data
             case FrameType.END:
-                checksum = packet.positions if packet.positions >= 0 else None
+                checksum = None
+                if packet.positions >= 0:
+                    checksum = packet.positions
             case carried:
                 brief |= packet.length == 0
                 sizes[_CARRIED[FrameType(carried)]] += packet.data
                 if carried in POSITIONS:
-                    cells, *_ = headers[0].base or (0,)
-                    of_cells = carried == FrameType.REFINEMENT and levels < cells
-                    positions[LEVELS_OF_CELLS if of_cells else POSITIONS[FrameType(carried)]] += (
-                        packet.data
-                    )
+                    kind = POSITIONS[FrameType(carried)]
+                    levels_of_cells, *_ = headers[0].base or (0,)
+                    if carried == FrameType.REFINEMENT and levels < levels_of_cells:
+                        kind = LEVELS_OF_CELLS
+                    positions[kind] += packet.data
         if packet.type == FrameType.REFINEMENT:
             levels += packet.count
         if packet.type == FrameType.BLOCK:
@@ -214,11 +219,13 @@ def inspect_stream(chunks: Iterable[bytes], limits: Limits = DEFAULT_LIMITS) -> 
     attributes = tuple(_attribute_info(packet, lengths[packet.index]) for packet in declared)
     sizes["attributes"] = sum(attribute.bytes for attribute in attributes)
     sizes |= {"framing": total - sum(sizes.values()), "total": total}
-    numbers, run_table = tuple(coefficients), tuple(runs) if headers[0].gop_frames else ()
+    run_table: tuple[RunInfo, ...] = ()
+    if headers[0].gop_frames:
+        run_table = tuple(runs)
     return StreamInfo(
         headers[0],
         metadata,
-        numbers,
+        tuple(coefficients),
         tuple(gops),
         attributes,
         sizes,
@@ -267,10 +274,19 @@ def summarize_stream(info: StreamInfo) -> dict[str, Any]:
         "attributes": header.attributes > 0,
         "sequence": bool(header.sequence),
     }
+    preset: str | None = None
+    if info.is_paper:
+        preset = "paper"
+    checksum: str | None = None
+    if info.checksum is not None:
+        checksum = f"{info.checksum:08x}"
+    images = {name: value for name, value in info.metadata.items() if isinstance(value, bytes)}
+    # JSON has no bytes.
+    texts = {name: base64.b64encode(value).decode() for name, value in images.items()}
     return {
         "version": f"{info.version >> 4}.{info.version & 15}",
         "extensions": [name for name, used in extensions.items() if used],
-        "preset": "paper" if info.is_paper else None,
+        "preset": preset,
         "vertices": header.vertices,
         "faces": header.faces,
         "blocks": header.blocks,
@@ -278,7 +294,7 @@ def summarize_stream(info: StreamInfo) -> dict[str, Any]:
         "coefficients": list(info.coefficients),
         "bytes": info.sizes,
         "positions": info.positions,
-        "checksum": None if info.checksum is None else f"{info.checksum:08x}",
+        "checksum": checksum,
         "frames": info.frames,
         "gops": [asdict(gop) for gop in info.gops],
         "runs": [asdict(run) for run in info.runs],
@@ -288,12 +304,6 @@ def summarize_stream(info: StreamInfo) -> dict[str, Any]:
         "bpv_geometry": info.bpv("coefficients"),
         "bpv_paper": info.bpv_paper,
         "header": {name: getattr(header, name) for name in header.__dataclass_fields__},
-        "metadata": {
-            # JSON has no bytes.
-            name: base64.b64encode(value).decode() if isinstance(value, bytes) else value
-            for name, value in info.metadata.items()
-        },
-        "metadata_bytes": {
-            n: len(value) for n, value in info.metadata.items() if isinstance(value, bytes)
-        },
+        "metadata": {**info.metadata, **texts},
+        "metadata_bytes": {name: len(value) for name, value in images.items()},
     }

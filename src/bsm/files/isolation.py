@@ -73,7 +73,9 @@ def frames_isolated(
     request: Wanted | None,
 ) -> Any:
     """The `Frames` that a process of its own reads, or None; errors as of `open_sequence`."""
-    beside = os.path.abspath(request.mesh) if request and request.mesh else None
+    beside: str | None = None
+    if request and request.mesh:
+        beside = os.path.abspath(request.mesh)
     extra_fields = {
         "sequence": True,
         "wanted": request and {**asdict(request), "mesh": beside},
@@ -90,24 +92,26 @@ def _read_there(
     accepted: Any,
     **extra_fields: Any,
 ) -> Any:
-    data, names = b"", [] if isinstance(source, Input) else list(source)
-    if isinstance(source, Input):
+    data, names = b"", list[str]()
+    if not isinstance(source, Input):
+        names = list(source)
+    else:
+        extra_fields["name"] = source.name
         # A path of this process (/dev/fd/3, ...) means another file in the child, so its bytes are sent instead.
-        path = (
-            os.path.abspath(source.name)
-            if source.is_file and not _OF_THIS_PROCESS.match(source.name)
-            else None
-        )
-        data, names, extra_fields["name"] = (
-            (b"", [path], source.name) if path else (source.read_all(), [], source.name)
-        )
+        if source.is_file and not _OF_THIS_PROCESS.match(source.name):
+            names = [os.path.abspath(source.name)]
+        else:
+            data = source.read_all()
         # Others never come here.
-        file_format = file_format if landlock.lack() is None else file_format or kind or None
+        if landlock.lack() is not None:
+            file_format = file_format or kind or None
+    if kind not in FORMATS:
+        kind = ""
     size = len(data) + sum(map(os.path.getsize, names))
     seconds = math.ceil(min(limits.work_for(limits.vertices, size) / 1e9, 1e6))
     extra_fields |= {
         "format": file_format,
-        "kind": kind if kind in FORMATS else "",
+        "kind": kind,
         "names": names,
         "limits": asdict(limits),
         "memory": int(min(limits.memory_for(limits.vertices, size), 1 << 40)),
@@ -274,7 +278,8 @@ def _watch(answer: int, memory: int, request: dict[str, Any], begin: int) -> Non
             _grant(child, here)
         _, status, used = os.wait4(child, 0)
         # For a child may stop itself, or ignore that signal.
-        status = status if signal.alarm(0) else signal.SIGALRM
+        if not signal.alarm(0):
+            status = signal.SIGALRM
         with suppress(ProcessLookupError):
             os.killpg(child, signal.SIGKILL)
         last = b""
@@ -340,11 +345,16 @@ def _ask(room: int, size: int) -> None:
 def _called(request: dict[str, Any]) -> MeshFile | Frames | None:
     """Read as without isolation, in here."""
     arguments, names = (request["format"], Limits(**request["limits"])), request["names"]
-    sequence_request = Wanted(**request["wanted"]) if request.get("wanted") else None
+    sequence_request: Wanted | None = None
+    if request.get("wanted"):
+        sequence_request = Wanted(**request["wanted"])
     if "name" not in request:
         return sequence.open_frames(names, *arguments, sequence_request or Wanted(), isolated=False)
-    source: Any = names[0] if names else io.BytesIO(request["data"])
-    if not names:
+    source: Any
+    if names:
+        source = names[0]
+    else:
+        source = io.BytesIO(request["data"])
         source.name = request["name"]
     if request.get("sequence"):
         return sequence.open_sequence(
@@ -375,7 +385,9 @@ def _confine(request: dict[str, Any]) -> None:
 
 
 def _least(most: int, current: int) -> int:
-    return most if current == resource.RLIM_INFINITY else min(most, current)
+    if current == resource.RLIM_INFINITY:
+        return most
+    return min(most, current)
 
 
 # First the parent's death ends this process (1), then no program gets new rights (38), without which the kernel takes

@@ -149,8 +149,10 @@ def read_cut(
         isolated_mesh: MeshFile = read_isolated(input_source, file_format, limits, kind)
         return isolated_mesh
     name = input_source.name
-    path = name if input_source.is_file else None
-    folder = Path(path).parent if path else None
+    path: str | None = None
+    folder: Path | None = None
+    if input_source.is_file:
+        path, folder = name, Path(name).parent
     if kind in FORMATS and FORMATS[kind].apart:
         # These libraries open a file by its name themselves, often several times; they know no gzip.
         if path is None or input_source.peek(2) == _GZIP:
@@ -166,15 +168,19 @@ def read_cut(
         raise FormatError("this is a BSM stream, not a mesh file; decode it first")
     kind = _kind(name, data, file_format)
     row = FORMATS.get(kind)
+    other_format = ""
     # A reader's error about line 1 would say less.
-    other_format = other_kind(data, kind) if row is not None and row.namesakes else ""
+    if row is not None and row.namesakes:
+        other_format = other_kind(data, kind)
     if other_format and (kind, other_format) != ("glb", "JSON"):
         raise FormatError(
             f"this is {other_format}, not .{kind}; give it the right name, or name its format"
         )
     if row is None or not row.reader or (kind in USD_FORMATS and not path):
         way = next((way for kinds, way in _FOREIGN.items() if kind in kinds), _WAY)
-        what = f".{kind}" if kind else "this"
+        what = "this"
+        if kind:
+            what = f".{kind}"
         raise FormatError(f"{what} is not a mesh format that is known here: {way}")
     reader = by_name(row.modules[0], row.reader)
     if kind in USD_FORMATS:
@@ -183,7 +189,11 @@ def read_cut(
     if kind in GLTF:
         scene: MeshFile = reader(by_name("bsm.gltf.document", "Document")(data, folder, limits))
         return scene
-    polygons: Polygons = reader(data, path, limits) if row.by_path else reader(data, limits)
+    polygons: Polygons
+    if row.by_path:
+        polygons = reader(data, path, limits)
+    else:
+        polygons = reader(data, limits)
     if row.beside:
         beside = Beside(folder, limits)
         metadata, notes, lost = fetched(polygons.metadata, beside.read)
@@ -206,7 +216,10 @@ def _read_apart(path: str, kind: str, limits: Limits, cut: Cut | None, *, here: 
 
 def kind_of(source: Input, file_format: str | None) -> str:
     """The format of a file, by its name, or else by its first bytes; "" if they do not tell."""
-    head = source.peek(_HEAD if source.is_file else _ALL)
+    size_of_head = _ALL
+    if source.is_file:
+        size_of_head = _HEAD
+    head = source.peek(size_of_head)
     name = source.name
     if head.startswith(_GZIP):
         name = name.removesuffix(".gz")
@@ -233,8 +246,12 @@ def is_apart(kinds: Iterable[str], limits: Limits, isolated: bool | None) -> boo
         (kind for kind in kinds if isolated or kind not in (*MESH_FORMATS, *GLTF, "npy", "")), None
     )
     if lack is not None and foreign is not None:
-        error = DependencyError if "pip" in lack else UnsupportedError
-        what = f".{foreign} files" if foreign else "files"
+        error: type[BsmError] = UnsupportedError
+        if "pip" in lack:
+            error = DependencyError
+        what = "files"
+        if foreign:
+            what = f".{foreign} files"
         why = "since nothing else bounds a reader's memory, time and files"
         raise error(
             f"{what} from strangers are read in a process of its own, {why}; that needs {lack}"
@@ -280,7 +297,9 @@ def unknown_suffix(
 ) -> OptionError:
     """Return an error that lists the suffixes that can be written."""
     suffix = kind or Path(path).suffix[1:]
-    fault = f"single meshes are not written as {suffix}" if suffix else "its name has no suffix"
+    fault = "its name has no suffix"
+    if suffix:
+        fault = f"single meshes are not written as {suffix}"
     return OptionError(f"{path}: {fault}; use one of .{', .'.join((*more, *WRITTEN_FORMATS))}")
 
 
@@ -293,12 +312,14 @@ def parts_of(path: str, metadata: Metadata) -> dict[str, Path | None]:
             names = {*by_name("bsm.gltf.document", "read_document")(path).files}
     beside = Beside(Path(path).resolve().parent, Limits())
     # Images may lie beside the library of materials that names them, and not beside the mesh.
-    folders = dict.fromkeys(
-        ["", *(line.replace("\\", "/").rpartition("/")[0] for line in libraries)]
-    )
+    prefixes = [""]
+    for library in libraries:
+        folder, _, _ = library.replace("\\", "/").rpartition("/")
+        if folder:
+            prefixes.append(f"{folder}/")
     parts: dict[str, Path | None] = {}
     for name in filter(None, names):
-        places = [beside.find(f"{folder}/{name}" if folder else name) for folder in folders]
+        places = [beside.find(f"{prefix}{name}") for prefix in dict.fromkeys(prefixes)]
         parts[name] = next((place for place in places if isinstance(place, Path)), None)
     return parts
 
@@ -347,7 +368,9 @@ def save_written(
     # All names are asked before the first file is written: a refusal in the middle would leave half of the output.
     for place in beside:
         refuse_to_overwrite(place, replace_beside)
-    follow_beside = follow if isinstance(follow, str) else False
+    follow_beside = follow
+    if not isinstance(follow, str):
+        follow_beside = False
     for place, data in beside.items():
         write_output(place, data, overwrite=replace_beside, follow=follow_beside)
     # The mesh comes last: who sees it finds all the files that it names.

@@ -54,18 +54,17 @@ def open_output(
     if os.path.isdir(path):
         raise IsADirectoryError(errno.EISDIR, "the output is a folder", os.fspath(path))
     if follow is True and not can_be_replaced(path):
-        descriptor = _descriptor(path)
-        with (
-            by_its_own_name(path),
-            open(path if descriptor is None else os.dup(descriptor), "wb") as device,
-        ):
+        with by_its_own_name(path), _open_device(path) as device:
             yield device
         return
     refuse_to_overwrite(path, overwrite)
+    place = Path(path)
+    if follow is True:
+        place = Path(os.path.realpath(path))
     with (
         termination_as_exception(),
         by_its_own_name(path),
-        _in_its_folder(Path(os.path.realpath(path) if follow is True else path), follow) as target,
+        _in_its_folder(place, follow) as target,
         _replacing(target, overwrite) as file,
     ):
         yield file
@@ -83,8 +82,11 @@ def _replacing(target: Path, overwrite: bool) -> Iterator[BinaryIO]:
             file.flush()
             # Before the rename: after a loss of power, the name could otherwise stand for an empty file.
             os.fsync(file.fileno())
+            chmod_target: int | str = name
             # Another program may have put a link in its place, which only a name would follow.
-            os.chmod(file.fileno() if os.chmod in os.supports_fd else name, _permissions(target))
+            if os.chmod in os.supports_fd:
+                chmod_target = file.fileno()
+            os.chmod(chmod_target, _permissions(target))
         if overwrite:
             os.replace(name, target)
         else:
@@ -196,7 +198,8 @@ def _identity(path: str) -> tuple[int, int] | str | None:
         return path
     with suppress(OSError):
         status = os.stat(path)
-        return (status.st_dev, status.st_ino) if stat.S_ISREG(status.st_mode) else None
+        if stat.S_ISREG(status.st_mode):
+            return status.st_dev, status.st_ino
     return None
 
 
@@ -208,7 +211,9 @@ def _place(path: str) -> str | None:
         return None
     place = os.path.realpath(path)
     # Two outputs, A.bsm and a.bsm, are one file on macOS and Windows.
-    return place.lower() if _ignores_case(os.path.dirname(place)) else place
+    if _ignores_case(os.path.dirname(place)):
+        place = place.lower()
+    return place
 
 
 @cache
@@ -256,7 +261,16 @@ def open_own(path: Path, flags: int) -> int:
 def _descriptor(path: str | os.PathLike[str]) -> int | None:
     name = os.fspath(path)
     match = _DESCRIPTOR.fullmatch(_STANDARD.get(name, name))
-    return int(match[1] or match[2]) if match else None
+    if match is None:
+        return None
+    return int(match[1] or match[2])
+
+
+def _open_device(path: str | os.PathLike[str]) -> BinaryIO:
+    descriptor = _descriptor(path)
+    if descriptor is None:
+        return open(path, "wb")
+    return open(os.dup(descriptor), "wb")
 
 
 def can_be_replaced(path: str | os.PathLike[str]) -> bool:
@@ -326,7 +340,9 @@ def default_output(path: str, suffix: str) -> str:
     if path == "-":
         return "-"
     output = _with_suffix(path, suffix)
-    output_path = pipes.beside(path, output.name) if pipes.is_url(path) else str(output)
+    output_path = str(output)
+    if pipes.is_url(path):
+        output_path = pipes.beside(path, output.name)
     if output_path == path or (not pipes.is_url(path) and output == Path(path)):
         raise OptionError(f"the output would replace the input {path}; name another with -o")
     return no_link(output_path)
@@ -334,9 +350,9 @@ def default_output(path: str, suffix: str) -> str:
 
 def output_inside(folder: str, path: str, suffix: str) -> str:
     name = _with_suffix(path, suffix).name
-    return (
-        posixpath.join(folder, name) if pipes.is_url(folder) else no_link(str(Path(folder, name)))
-    )
+    if pipes.is_url(folder):
+        return posixpath.join(folder, name)
+    return no_link(str(Path(folder, name)))
 
 
 def no_link(path: str) -> str:
@@ -352,7 +368,9 @@ def _with_suffix(path: str, suffix: str) -> Path:
         raise OptionError(
             f"{path} stands for many files, which make one; name that with -o, with its suffix"
         )
-    place = Path(pipes.name_in(path) if far else path)
+    place = Path(path)
+    if far:
+        place = Path(pipes.name_in(path))
     if place.name in ("", "-", "..") or path.startswith("/dev/"):
         raise OptionError(f"{path} gives the output no name; name it with -o")
     return place.with_suffix(suffix)

@@ -11,7 +11,7 @@ import sys
 import tempfile
 import urllib.parse
 from collections.abc import Iterator
-from contextlib import closing, contextmanager, nullcontext, suppress
+from contextlib import AbstractContextManager, closing, contextmanager, nullcontext, suppress
 from pathlib import Path
 from typing import Any, BinaryIO, TypeAlias, Union, cast
 
@@ -145,9 +145,11 @@ def open_remote(url: str) -> BinaryIO:
     """Open a file for reading, piece by piece; not every server lets one go back."""
     with _errors_of(url):
         files, path = _system(url)
+        options: dict[str, int] = {}
         # What the web gives is read as it comes: many a server answers no questions about parts.
-        block = {"block_size": 0} if _scheme(url) in _WEB else {}
-        return cast(BinaryIO, files.open(path, "rb", **block))
+        if _scheme(url) in _WEB:
+            options["block_size"] = 0
+        return cast(BinaryIO, files.open(path, "rb", **options))
 
 
 @contextmanager
@@ -216,11 +218,16 @@ def remove(name: str) -> None:
 
 def _scheme(url: str) -> str:
     match = _URL.match(url)
-    return match[1].lower() if match else ""
+    if match is None:
+        return ""
+    return match[1].lower()
 
 
 def _path(url: str) -> str:
-    return re.split(r"[?#]", url, maxsplit=1)[0] if _scheme(url) in _WEB else url
+    if _scheme(url) not in _WEB:
+        return url
+    path, *_ = re.split(r"[?#]", url, maxsplit=1)
+    return path
 
 
 def _system(url: str) -> tuple[Any, str]:
@@ -232,11 +239,12 @@ def _system(url: str) -> tuple[Any, str]:
     # The message of fsspec names a module, and pip may know its package under another name.
     except ImportError as error:
         registry = errors.imported("fsspec.registry", "", "remote")
-        package = (
-            registry.known_implementations.get(scheme, {}).get("class", "fsspec.").partition(".")[0]
-        )
-        if package == "fsspec":
-            package = f"fsspec[{'http' if scheme in _WEB else scheme}]"
+        class_name = registry.known_implementations.get(scheme, {}).get("class", "fsspec.")
+        package, _, _ = class_name.partition(".")
+        if package == "fsspec" and scheme in _WEB:
+            package = "fsspec[http]"
+        elif package == "fsspec":
+            package = f"fsspec[{scheme}]"
         raise errors.DependencyError(
             f"{scheme}:// needs a package that is missing: pip install '{package}'"
         ) from error
@@ -291,9 +299,9 @@ class Input:
             self.name = str(getattr(source, "name", ""))
         else:
             try:
-                self._file = io.BytesIO(
-                    source if isinstance(source, bytes) else memoryview(source).tobytes()
-                )
+                if not isinstance(source, bytes):
+                    source = memoryview(source).tobytes()
+                self._file = io.BytesIO(source)
             except TypeError:
                 kind = type(source).__name__
                 raise errors.ArgumentError(
@@ -348,8 +356,10 @@ class Input:
             if os.path.isdir(self.name):
                 raise errors.FormatError("this is a folder, not a file")
             self._opened = self.name != "-"  # closed at its end, or where `chunks` ends
-            if self._opened:
-                self._file = open_remote(self.name) if is_url(self.name) else open(self.name, "rb")  # noqa: SIM115
+            if is_url(self.name):
+                self._file = open_remote(self.name)
+            elif self._opened:
+                self._file = open(self.name, "rb")  # noqa: SIM115
             elif sys.stdin is None:
                 raise OSError(errno.EBADF, "standard input is closed")
             else:
@@ -357,7 +367,10 @@ class Input:
         # read1 returns what has arrived: read would wait for all of a chunk, and a stream from a pipe would not be
         # decoded while it comes.
         read = getattr(self._file, "read1", self._file.read)
-        with _errors_of(self.name) if self._opened and is_url(self.name) else nullcontext():
+        translation: AbstractContextManager[None] = nullcontext()
+        if self._opened and is_url(self.name):
+            translation = _errors_of(self.name)
+        with translation:
             piece = read(_CHUNK)
         # A descriptor that does not block has nothing yet: taking it for the end would cut the file short without a
         # word.
@@ -386,7 +399,9 @@ class Input:
 
 def as_input(source: Source) -> Input:
     """`source` as an `Input`; one that is already being read goes on."""
-    return source if isinstance(source, Input) else Input(source)
+    if isinstance(source, Input):
+        return source
+    return Input(source)
 
 
 # A name that does not exist is not a pipe: opening it reports that, as for any file.
@@ -409,7 +424,8 @@ def read_range(name: str, first: int, size: int) -> bytes:
             files, path = _system(name)
             data = bytes(files.cat_file(path, start=first, end=first + size))
             # Of a server that knows no ranges.
-            data = data[first : first + size] if len(data) > size else data
+            if len(data) > size:
+                data = data[first : first + size]
     else:
         with open(name, "rb") as file:
             file.seek(first)
@@ -489,4 +505,6 @@ def size_of(path: str) -> int | None:
     if is_url(path):
         return (state_of_remote(path) or (None,))[0]
     sizes = [os.path.getsize(file) for file in files_behind(path) if os.path.isfile(file)]
-    return sum(sizes) if sizes else None
+    if not sizes:
+        return None
+    return sum(sizes)

@@ -87,15 +87,17 @@ def open_sequence(
         and kind not in ("npz", "npy")
         and (kind not in GLTF or request is not None)
     )
-    head = b"" if moves else input_source.peek(len(NPY))
-    piped = head == NPY or file_format == "npy"
-    # A 3MF is a ZIP, too.
-    packed = head.startswith(ZIP) and (file_format is not None or kind in ("", "npz"))
-    if not (
-        input_source.is_file if moves else file_format in (None, "npz", "npy") and (piped or packed)
-    ):
+    apart_kind, is_sequence, piped = kind, input_source.is_file, False
+    if not moves:
+        head = input_source.peek(len(NPY))
+        piped = head == NPY or file_format == "npy"
+        # A 3MF is a ZIP, too.
+        packed = head.startswith(ZIP) and (file_format is not None or kind in ("", "npz"))
+        is_sequence = file_format in (None, "npz", "npy") and (piped or packed)
+        apart_kind = "npz"
+    if not is_sequence:
         return None
-    if is_apart((kind if moves else "npz",), limits, isolated):
+    if is_apart((apart_kind,), limits, isolated):
         isolated_frames: Frames | None = by_name(*_ISOLATED)(
             input_source, file_format, limits, kind, request
         )
@@ -110,10 +112,10 @@ def open_sequence(
         isolated_frames = by_name(row.modules[0], row.reader.removesuffix("_mesh"))(
             input_source.name, wishes, limits
         )
+    elif piped:
+        isolated_frames = read_pipe(input_source, limits)
     else:
-        isolated_frames = (
-            read_pipe(input_source, limits) if piped else read_archive(input_source, limits)
-        )
+        isolated_frames = read_archive(input_source, limits)
     return isolated_frames
 
 
@@ -126,7 +128,9 @@ def open_frames(
     isolated: bool | None,
 ) -> Frames:
     """The sequence of these mesh files by their times or numbers; errors as of `open_sequence`."""
-    ordered = list(names) if request.times else folder.in_order(names)
+    ordered = list(names)
+    if not request.times:
+        ordered = folder.in_order(names)
     kinds = [kind_of(Input(name), file_format) for name in ordered]
     if is_apart(kinds, limits, isolated):
         paths = [os.path.abspath(name) for name in ordered]
@@ -153,7 +157,9 @@ def open_frames(
 
 def _files_of_frames(path: str) -> Iterable[str]:
     """Return the files that a sequence is read from, without streams and others in its folder."""
-    meshes = sorted(folder.mesh_files(path)) if folder.names_many(path) else []
+    meshes: list[str] = []
+    if folder.names_many(path):
+        meshes = sorted(folder.mesh_files(path))
     return meshes or files_behind(path)
 
 
@@ -168,19 +174,16 @@ def size_of_sequence(
     file_names: list[str] = []
     for path in (file for name in paths for file in _files_of_frames(name)):
         kind = Path(path).suffix[1:].lower()
-        file_names += [
-            path,
-            *(folder.listed(path, kind, DEFAULT_LIMITS)[0] if kind in folder.LISTS else ()),
-        ]
-        file_names += [mesh or mesh_beside(path)] if kind in CACHES else []
-    parts_named = (
-        parts_of(file_names[-1] if len(file_names) > 1 else file_names[0], metadata)
-        if file_names
-        else {}
-    )
-    files = {
-        os.path.realpath(str(file)) for file in (*file_names, *filter(None, parts_named.values()))
-    }
+        file_names.append(path)
+        if kind in folder.LISTS:
+            listed_names, *_ = folder.listed(path, kind, DEFAULT_LIMITS)
+            file_names += listed_names
+        if kind in CACHES:
+            file_names.append(mesh or mesh_beside(path))
+    parts: list[Path] = []
+    if file_names:
+        parts += filter(None, parts_of(file_names[-1], metadata).values())
+    files = {os.path.realpath(str(file)) for file in (*file_names, *parts)}
     return sum(os.path.getsize(file) for file in files if os.path.isfile(file)) or None
 
 
@@ -240,18 +243,23 @@ def _of_files(
 ) -> FrameWriter:
     """A writer of a file for each frame; materials and images lie beside the first one alone."""
     numbered, numbers, fresh = shared.numbered, count_from(0), True
-    times_held = (
-        FORMATS[kind].times if kind == "vtp" or (numbered and kind != "glb") else frozenset()
-    )
+    times_held: frozenset[str] = frozenset()
+    if kind == "vtp" or (numbered and kind != "glb"):
+        times_held = FORMATS[kind].times
     frames = replace(shared, held=times_held)
 
     def take(frame: Positions, faces: Faces | None = None) -> None:
         nonlocal present, fresh
-        present, number = present if faces is None else faces, next(numbers)
+        if faces is not None:
+            present = faces
+        number = file_number = next(numbers)
         mesh = frames.mesh(frame, present, with_metadata=fresh)
         fresh = fresh and is_empty(mesh.attributes)
-        mesh = frames.timed(mesh, number) if kind == "vtp" else mesh
-        frames.loses(write_mesh(mesh, int(frames.code(number)) if numbered else number))
+        if kind == "vtp":
+            mesh = frames.timed(mesh, number)
+        if numbered:
+            file_number = int(frames.code(number))
+        frames.loses(write_mesh(mesh, file_number))
 
     return take
 
@@ -314,11 +322,9 @@ def _cache_writer(
     with tempfile.TemporaryFile() as spool:
 
         def end(*, last: bool = False) -> None:
-            name = (
-                path
-                if last and not begun
-                else str(Path(path).with_stem(f"{Path(path).stem}_{begun:05d}"))
-            )
+            name = path
+            if begun or not last:
+                name = str(Path(path).with_stem(f"{Path(path).stem}_{begun:05d}"))
             mesh, beside = meshes[-1], mesh_of(name)
             fits = _plays(beside, mesh.faces)
             refuse_to_overwrite(beside, overwrite or fits)
@@ -331,11 +337,8 @@ def _cache_writer(
                 write_cache(file, kind, codes, frames, shared.frame_rate)
             shared.loses(name for name in (TIMES, RATE) if name in mesh.metadata)
             if not fits:
-                shared.loses(
-                    save_written(
-                        beside, written_mesh(mesh, "obj", beside), overwrite=overwrite, follow=False
-                    )
-                )
+                obj = written_mesh(mesh, "obj", beside)
+                shared.loses(save_written(beside, obj, overwrite=overwrite, follow=False))
             spool.seek(0)
             spool.truncate()
 
@@ -345,7 +348,8 @@ def _cache_writer(
                 end()
                 begun = frames_taken
             if frames_taken == begun:
-                meshes.append(shared.mesh(np.array(frame), first if faces is None else faces))
+                present = first if faces is None else faces
+                meshes.append(shared.mesh(np.array(frame), present))
             spool.write(np.ascontiguousarray(frame, np.float64).tobytes())
             frames_taken += 1
             shared.loses(
@@ -361,8 +365,10 @@ def _cache_writer(
 
 def _plays(path: str, faces: Faces) -> bool:
     """Whether a mesh file is there that has these faces, in any order: it is the animator's, and stays."""
+    mesh_faces = faces[:0]
     try:
-        mesh_faces = read_mesh(path).mesh.faces if os.path.isfile(path) else faces[:0]
+        if os.path.isfile(path):
+            mesh_faces = read_mesh(path).mesh.faces
     except (BsmError, OSError):
         return False
     # Faces without area were added for loose vertices, and OBJ files of animators do not have them.

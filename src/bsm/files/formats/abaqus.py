@@ -62,9 +62,17 @@ class _Keyword:
     rows: list[str]
 
 
+def _without_remark(row: str) -> str:
+    """Return a row without spaces around it; nothing of a remark."""
+    row = row.strip()
+    if row.startswith("**"):
+        return ""
+    return row
+
+
 def _keywords(text: str) -> Iterator[_Keyword]:
     """The keywords of a file with their parameters and the lines of data after them."""
-    lines = ["" if row.lstrip().startswith("**") else row.strip() for row in text.splitlines()]
+    lines = [_without_remark(row) for row in text.splitlines()]
     starts = [number for number, line in enumerate(lines) if line.startswith("*")]
     first = next((number for number, line in enumerate(lines) if line), 0)
     if starts[:1] != [first]:
@@ -136,8 +144,10 @@ class _ModelReader:
             self._begin_instance(keyword)
         elif name in ("END PART", "END INSTANCE", "ASSEMBLY"):
             self._in_assembly |= name == "ASSEMBLY"
+            self._scope = self.model
             # Reference points of an assembly are in no element here.
-            self._scope = _Scope("") if self._in_assembly else self.model
+            if self._in_assembly:
+                self._scope = _Scope("")
         elif name == "NODE":
             if {"SYSTEM", "INPUT"} & parameters.keys() and parameters.get(
                 "SYSTEM", ""
@@ -212,20 +222,20 @@ class _Surfaces:
     def of(self, scope: _Scope) -> tuple[Part, tuple[str, ...]]:
         """Return the surface of a scope where its part has it, and the names of the rest."""
         part = scope.part
-        own = scope if part is None or scope.nodes or scope.elements else part
-        if part is not None and own is scope:
-            own = replace(
+        if part is not None and (scope.nodes or scope.elements):
+            scope = replace(
                 scope, nodes=[*part.nodes, *scope.nodes], elements=[*part.elements, *scope.elements]
             )
             # Each such instance reads the lines of its part again.
-            self._lines += sum(len(lines) for _, lines in own.nodes) + sum(
-                len(lines) for *_, lines in own.elements
-            )
+            self._lines += sum(len(lines) for _, lines in scope.nodes)
+            self._lines += sum(len(lines) for *_, lines in scope.elements)
             require_counts(self._limits, vertices=self._lines)
-            return _surface(own, self._names, self._table, self._limits)
-        if id(own) not in self._known:
-            self._known[id(own)] = _surface(own, self._names, self._table, self._limits)
-        return self._known[id(own)]
+            return _surface(scope, self._names, self._table, self._limits)
+        if part is not None:
+            scope = part
+        if id(scope) not in self._known:
+            self._known[id(scope)] = _surface(scope, self._names, self._table, self._limits)
+        return self._known[id(scope)]
 
 
 def _surface(
@@ -238,7 +248,9 @@ def _surface(
             words = row.upper().replace("D", "E").split(",")[:4]  # 1.D0 is 1.E0
             rows.append((line, [word.strip() or "0" for word in words]))
     require_counts(limits, vertices=len(rows))
-    first_line = rows[0][0] if rows else 0
+    first_line = 0
+    if rows:
+        first_line, _ = rows[0]
     numbers = Numbering(whole([words[0] for _, words in rows], "*NODE", first_line))
     try:
         places = np.array(
@@ -281,4 +293,6 @@ def _shape_of(kind: str) -> tuple[str, int]:
         count = int(match["solid"])
         return _SHAPES[count], count
     count = int(match["flat"])
-    return "triangle" if count in (3, 6) else "quad", count
+    if count in (3, 6):
+        return "triangle", count
+    return "quad", count

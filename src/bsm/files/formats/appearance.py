@@ -139,7 +139,9 @@ def as_numbers(value: object) -> list[float]:
         numbers = [float(word) for word in str(value).split()]
     except ValueError:
         return []
-    return numbers if all(map(math.isfinite, numbers)) else []
+    if not all(map(math.isfinite, numbers)):
+        return []
+    return numbers
 
 
 def appearance(words: Material) -> Appearance:
@@ -147,7 +149,9 @@ def appearance(words: Material) -> Appearance:
     fields: dict[str, Any] = {}
     fields_by_word: dict[str, tuple[str, ...]] = {}
     for word, names in (*_GLTF.items(), *_MTL.items()):
-        values = _read(word, names, words) if word in words else {}
+        if word not in words:
+            continue
+        values = _read(word, names, words)
         if values:
             fields_by_word[word] = tuple(values)
             fields = values | fields
@@ -160,8 +164,10 @@ def appearance(words: Material) -> Appearance:
         fields.setdefault("surface_texture", Texture(roughness))
         fields_by_word |= dict.fromkeys(("map_Pr", "map_Pm"), ("surface_texture",))
     if any(map(is_mtl, words)):  # what MTL means where it says nothing
-        has_metal_image = metal is not None and "map_Pr" in fields_by_word
-        fields.setdefault("metallic", 1.0 if has_metal_image else 0.0)
+        usual_metallic = 0.0
+        if metal is not None and "map_Pr" in fields_by_word:
+            usual_metallic = 1.0
+        fields.setdefault("metallic", usual_metallic)
         if "map_Ke" in words and not any(fields.get("emission", ())):
             fields["emission"] = (1.0, 1.0, 1.0)
     # The image of the color also holds the opacity.
@@ -186,7 +192,9 @@ def _read(word: str, names: Sequence[str], words: Material) -> dict[str, Any]:
             texture = replace(texture, **fields)
         return {name: texture}
     if isinstance(usual, str):
-        return {name: str(value)} if name == "name" or value in ("OPAQUE", "MASK", "BLEND") else {}
+        if name != "name" and value not in ("OPAQUE", "MASK", "BLEND"):
+            return {}
+        return {name: str(value)}
     if isinstance(usual, bool):
         return {name: bool(value)}
     numbers = as_numbers(str(value).removeprefix("-halo"))
@@ -248,7 +256,9 @@ def within(look: Appearance) -> tuple[Appearance, list[str]]:
     inside: dict[str, Any] = {}
     for name, limit in most.items():
         value = np.clip(getattr(look, name), 0.0, limit).tolist()
-        inside[name] = tuple(value) if isinstance(value, list) else value
+        if isinstance(value, list):
+            value = tuple(value)
+        inside[name] = value
     return replace(look, **inside), [
         name for name, value in inside.items() if value != getattr(look, name)
     ]
@@ -261,7 +271,9 @@ def in_gltf(look: Appearance) -> dict[str, Any]:
         first, *more = (getattr(look, name) for name in names)
         if first is None or not any(map(look.says, names)):
             continue
-        words[word] = [*first, *more] if isinstance(first, tuple) else first
+        words[word] = first
+        if isinstance(first, tuple):
+            words[word] = [*first, *more]
     return words
 
 
@@ -315,14 +327,18 @@ def parse_mtl(data: bytes, images: dict[str, int]) -> dict[str, Material]:
             if options:
                 current[f"{keyword}.options"] = options.strip()
         elif value and not keyword.startswith("#"):
-            current[keyword] = _color_words(value) if keyword in _MTL_COLORS else value
+            if keyword in _MTL_COLORS:
+                value = _color_words(value)
+            current[keyword] = value
     return materials
 
 
 def _color_words(value: str) -> str:
     """Return the three numbers of a color; one number is a gray."""
     numbers = value.replace(",", " ").split()
-    return " ".join(numbers * 3 if len(numbers) == 1 else numbers)
+    if len(numbers) == 1:
+        numbers *= 3
+    return " ".join(numbers)
 
 
 def write_mtl(

@@ -52,14 +52,18 @@ _LUMINANCE = (0.212671, 0.715160, 0.072169)  # as COLLADA has it
 
 def read_dae(data: bytes, path: str | None, limits: Limits) -> Polygons:
     collada = imported("collada", "DAE is read with pycollada", "formats")
-    beside = Beside(Path(path).resolve().parent if path else None, limits)
+    folder: Path | None = None
+    if path:
+        folder = Path(path).resolve().parent
+    beside = Beside(folder, limits)
     # A later check refuses infinite values.
     with as_library_error("pycollada"), np.errstate(all="ignore"):
         prepared, unread = _prepared(data)
         document = collada.Collada(io.BytesIO(prepared), ignore=[collada.common.DaeError])
         scene = _Nodes(collada, beside)
-        nodes = () if document.scene is None else document.scene.nodes
-        surfaces = [*_placed(collada, nodes)]
+        surfaces: list[Any] = []
+        if document.scene is not None:
+            surfaces += _placed(collada, document.scene.nodes)
         counts: list[tuple[int, int]] = []
         for primitive, _, _ in surfaces:
             shape = scene.shape(primitive)
@@ -95,7 +99,9 @@ def _prepared(data: bytes) -> tuple[bytes, list[str]]:
             if _is_empty(drawn):
                 mesh.remove(drawn)
                 changed = True
-    return ElementTree.tostring(root) if changed else data, unread
+    if changed:
+        data = ElementTree.tostring(root)
+    return data, unread
 
 
 def _with_ends(polygon: Any) -> Any:
@@ -166,7 +172,9 @@ class _Nodes:
     def part(self, primitive: Any, node: Any, matrix: Doubles) -> Part:
         targets = {material.symbol: material.target for material in node.materials}
         material = targets.get(primitive.material)
-        name = None if material is None else str(material.id)
+        name: str | None = None
+        if material is not None:
+            name = str(material.id)
         if name not in self.materials:
             self.materials[name] = {}
             if material is not None:
@@ -256,7 +264,9 @@ def _without_holes(primitive: Any, sizes: Ints, width: int) -> tuple[Ints, Any]:
 def _opacity(effect: Any) -> float:
     """Return the opacity by the color of <transparent> and the number of <transparency>, which is 1 by default."""
     marks = {_tag(element): element for element in effect.xmlnode.iter()}
-    mode = str(marks["transparent"].get("opaque")) if "transparent" in marks else ""
+    mode = ""
+    if "transparent" in marks:
+        mode = str(marks["transparent"].get("opaque"))
     color, share = effect.transparent, 1.0
     if not isinstance(color, tuple | list):
         color = (1.0, 1.0, 1.0, 1.0)
@@ -266,7 +276,9 @@ def _opacity(effect: Any) -> float:
         share *= sum(weight * number for weight, number in zip(_LUMINANCE, color))
     elif len(color) > 3:
         share *= color[3]
-    return float(1 - share if mode.endswith("ZERO") else share)
+    if mode.endswith("ZERO"):
+        share = 1 - share
+    return float(share)
 
 
 def _columns(primitive: Any, index: Array) -> list[Column]:

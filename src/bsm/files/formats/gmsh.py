@@ -57,7 +57,9 @@ class _Numbers:
     """The numbers of a section, one after the other."""
 
     def __init__(self, data: bytes, binary: bool) -> None:
-        self._data: Any = data if binary else np.array(data.split(), np.float64)
+        self._data: Any = data
+        if not binary:
+            self._data = np.array(data.split(), np.float64)
         self._binary, self._at = binary, 0
 
     def __len__(self) -> int:
@@ -65,7 +67,9 @@ class _Numbers:
 
     def take(self, kind: Any, count: int = 1) -> Any:
         """The next numbers, of a kind that they have in binary."""
-        size = count * np.dtype(kind).itemsize if self._binary else count
+        size = count
+        if self._binary:
+            size *= np.dtype(kind).itemsize
         begin = self._at
         self._at += size
         if not begin <= self._at <= len(self._data):
@@ -73,7 +77,9 @@ class _Numbers:
         if self._binary:
             return np.frombuffer(self._data, kind, count, begin)
         numbers = self._data[begin : self._at]
-        return numbers if kind == "f8" else as_integers(numbers, "a number")
+        if kind == "f8":
+            return numbers
+        return as_integers(numbers, "a number")
 
     def table(self, kind: str, count: int, width: int) -> Any:
         return self.take(kind, count * width).reshape(count, width)
@@ -197,7 +203,10 @@ class _Gmsh:
         section, is_new = self._section(name), self._version > 4
         if not section:
             return
-        blocks = section.counts(4 if is_new else 2)[0]
+        width_of_head = 2
+        if is_new:
+            width_of_head = 4
+        blocks, *_ = section.counts(width_of_head)
         for _ in range(blocks):
             dimension, number, third = section.counts(3, "i4")
             if not is_new:
@@ -211,7 +220,9 @@ class _Gmsh:
             return section.rows(count, 3)
         numbers, points = [np.zeros(0, np.int64)], [np.zeros((0, 3))]
         for section, dimension, _, parametric, count in self._blocks("Nodes"):
-            width = 3 + dimension if parametric else 3
+            width = 3
+            if parametric:
+                width += dimension
             if self._version > 4:
                 block_numbers = section.take("u8", count).astype(np.int64)
                 rows = section.table("f8", count, width)
@@ -226,8 +237,11 @@ class _Gmsh:
             yield from self._cells_with_tags()
             return
         groups = self._groups_of_entities()
+        number_type = "i4"
+        if self._version > 4:
+            number_type = "u8"
         for section, dimension, entity, kind, count in self._blocks("Elements"):
-            table = section.table("u8" if self._version > 4 else "i4", count, 1 + self._width(kind))
+            table = section.table(number_type, count, 1 + self._width(kind))
             place = self._place_of(groups.get((dimension, entity), ()))
             shape, numbers, _, nodes = self._cell(kind, 0, table)
             yield shape, numbers, np.full(count, place), nodes
@@ -265,11 +279,15 @@ class _Gmsh:
         nodes, edges = table[:, 1 + tags :], _EDGES.get(shape)
         if edges and nodes.shape[1] > min(edges):
             nodes = nodes[:, [*range(min(edges)), *edges]]
-        groups = np.abs(table[:, 1]) if tags else np.zeros(len(table), np.int64)
+        groups = np.zeros(len(table), np.int64)
+        if tags:
+            groups = np.abs(table[:, 1])
         different, inverse = np.unique(groups, return_inverse=True)
         places: list[int] = []
         for group in different.tolist():
-            sets = (group,) if group else ()
+            sets: tuple[int, ...] = (group,)
+            if not group:
+                sets = ()
             places.append(self._place_of(sets))
         return shape, table[:, 0], np.array(places, np.int64)[inverse.ravel()], nodes
 
@@ -284,7 +302,9 @@ class _Gmsh:
                 _, ghosts = section.counts(2)
                 section.take("i4", 2 * ghosts)
             for dimension, count in enumerate(section.counts(4)):
-                box = 3 if dimension == 0 and self._version > 4 else 6
+                box = 6
+                if dimension == 0 and self._version > 4:
+                    box = 3
                 for _ in range(count):
                     (entity,) = section.counts(1, "i4")
                     if is_part:
@@ -332,7 +352,10 @@ class _Gmsh:
             begin = end
         of_nodes, of_cells = dict[str, Any](), dict[str, Any]()
         for (kind, name), steps in self._series.items():
-            numbers, step_values = [*steps.values()][step if len(steps) > 1 else 0]
+            place = step
+            if len(steps) <= 1:
+                place = 0
+            numbers, step_values = [*steps.values()][place]
             values = self._table(kind, numbers, step_values)
             if kind == "NodeData":
                 of_nodes[name] = values
@@ -365,7 +388,9 @@ class _Gmsh:
         The metadata, an array for the cells that are kept, or one for each group if cells have several, losses, notes.
         """
         pairs, again = self._pairs(owned, alike)
-        lost = [f"elements that are there again ({again})"] if again else []
+        lost: list[str] = []
+        if again:
+            lost.append(f"elements that are there again ({again})")
         names = dict(self._names)
         grouped = pairs[pairs[:, 2] > 0]
         table, inverse = np.unique(grouped[:, 1:], axis=0, return_inverse=True)
@@ -387,8 +412,10 @@ class _Gmsh:
             not_in, places = np.unique(1 - is_in, axis=0, return_inverse=True)
             together = [" + ".join(np.array(group_names)[row == 0].tolist()) for row in not_in]
             for (dimension, _), name, marks in zip(kinds, group_names, is_in.T, strict=True):
-                if dimension > 1:
-                    masks[f"{name} ({dimension}D)" if name in masks else name] = marks
+                if dimension > 1 and name in masks:
+                    masks[f"{name} ({dimension}D)"] = marks
+                elif dimension > 1:
+                    masks[name] = marks
         else:
             if further:
                 lost.append(f"further groups of faces that are in several ({further})")
@@ -400,11 +427,12 @@ class _Gmsh:
         columns: dict[str, Any] = {}
         if len(together) > 1:
             columns["group"] = places.ravel().astype(np.int32)
-        notes = (
-            [f"faces are in several groups, each of which is an attribute: {', '.join(masks)}"]
-            if masks
-            else []
-        )
+        notes: list[str] = []
+        if masks:
+            mask_names = ", ".join(masks)
+            notes.append(
+                f"faces are in several groups, each of which is an attribute: {mask_names}"
+            )
         return metadata, columns | masks, lost, notes
 
 
@@ -421,7 +449,10 @@ def read_gmsh_mesh(data: bytes, limits: Limits) -> Polygons:
     """Read the surfaces of a file with the values of the first time."""
     model = _Gmsh(data, limits)
     later = len(model.times) - 1
-    return model.surface(0, [f"later steps ({later})"] if later else [])
+    losses: list[str] = []
+    if later:
+        losses.append(f"later steps ({later})")
+    return model.surface(0, losses)
 
 
 def read_gmsh(path: str, request: Wanted, limits: Limits) -> Frames | None:

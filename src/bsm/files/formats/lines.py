@@ -78,9 +78,13 @@ def included(text: str, pattern: str, path: str | None) -> str:
                 raise FormatError("this file is included twice")
             paths.add(file)
             content = file.read_text("latin-1")
+        pieces.append(text[begin : match.start()])
         statement = f"{match[1]}{match[3]}"
-        pieces += [text[begin : match.start()], *([statement, "\n"] if statement else [])]
-        waiting.append((content if statement else content.lstrip("\n"), 0))
+        if statement:
+            pieces.append(f"{statement}\n")
+        else:
+            content = content.lstrip("\n")
+        waiting.append((content, 0))
     return "".join(pieces)
 
 
@@ -99,16 +103,14 @@ class Numbering:
     def rows(self, references: Ints) -> Ints:
         """Return the rows of things with these numbers."""
         places = np.searchsorted(self._known, references).clip(0, max(len(self) - 1, 0))
-        missing = (
-            self._known[places] != references
-            if len(self)
-            else np.ones(np.shape(references), np.bool_)
-        )
+        missing = np.ones(np.shape(references), np.bool_)
+        if len(self):
+            missing = self._known[places] != references
         if missing.any():
-            raise MeshError(
-                f"{self._what} {np.asarray(references)[missing].ravel()[0]} is not there"
-            )
-        rows: Ints = self._order[places] if len(self) else np.full(np.shape(references), -1)
+            first_missing, *_ = np.asarray(references)[missing].ravel()
+            raise MeshError(f"{self._what} {first_missing} is not there")
+        # Without any numbers there are no references here.
+        rows: Ints = self._order[places]
         return rows
 
 

@@ -81,10 +81,12 @@ def without_names(metadata: Metadata, attributes: Collection[str]) -> Metadata:
 
 def kind_of_image(data: bytes) -> str | None:
     """Return the suffix of an image by its first bytes; None for unknown formats."""
-    known_kind = next(
-        (kind for signature, kind in _SIGNATURES.items() if data.startswith(signature)), None
-    )
-    return known_kind or ("tga" if _TGA.match(data) else None)
+    for signature, kind in _SIGNATURES.items():
+        if data.startswith(signature):
+            return kind
+    if _TGA.match(data):
+        return "tga"
+    return None
 
 
 def named(names: Sequence[str], what: str) -> dict[str, str]:
@@ -96,7 +98,9 @@ def named(names: Sequence[str], what: str) -> dict[str, str]:
 
 def names_in(metadata: Metadata, what: str) -> dict[int, str]:
     together = metadata.get(f"{what}.names")
-    names = dict(enumerate(together.split("\n"))) if isinstance(together, str) else {}
+    names: dict[int, str] = {}
+    if isinstance(together, str):
+        names = dict(enumerate(together.split("\n")))
     for key, name in metadata.items():
         if match := re.fullmatch(rf"{what}\.(\d{{1,9}})\.name", key):
             names[int(match[1])] = str(name)
@@ -274,7 +278,9 @@ class Beside:
     def read(self, name: str) -> bytes | str:
         """Return the bytes of a file, or why there are none."""
         path = self.find(name)
-        if isinstance(path, Path) and path not in self._read:
+        if isinstance(path, str):
+            return path
+        if path not in self._read:
             size = path.stat().st_size
             if size > min(self._most, self._left):
                 raise LimitError(
@@ -283,18 +289,18 @@ class Beside:
                 )
             self._left -= size
             self._read[path] = path.read_bytes()
-        return path if isinstance(path, str) else self._read[path]
+        return self._read[path]
 
 
 def _in_other_case(folder: Path, name: str) -> str:
     """A path below a folder as its files are spelled."""
     spelled_path = Path()
     for part in Path(name).parts:
-        with suppress(OSError):
-            names = (
-                os.listdir(folder / spelled_path) if ".." not in (part, *spelled_path.parts) else ()
-            )
-            part = next((spelling for spelling in names if spelling.lower() == part.lower()), part)
+        names: list[str] = []
+        if ".." not in (part, *spelled_path.parts):
+            with suppress(OSError):
+                names = os.listdir(folder / spelled_path)
+        part = next((spelling for spelling in names if spelling.lower() == part.lower()), part)
         spelled_path /= part
     return str(spelled_path)
 
@@ -314,10 +320,13 @@ def remarks(metadata: Metadata, written: Iterable[str] = ()) -> tuple[list[str],
     free = _MOST_BYTES
     elsewhere = set(written)
     for name, value in metadata.items():
-        line = "" if isinstance(value, bytes) else f"meta {name}: {json.dumps(value)}"
-        size = len(line.encode(errors="replace")) + _ENTRY_BYTES
         if name in elsewhere:
             continue
+        if isinstance(value, bytes):
+            left_out.append(name)
+            continue
+        line = f"meta {name}: {json.dumps(value)}"
+        size = len(line.encode(errors="replace")) + _ENTRY_BYTES
         if size > free or not _REMARK.fullmatch(line):
             left_out.append(name)
         else:
@@ -359,8 +368,9 @@ def fitting(metadata: Metadata, limit: int) -> tuple[dict[str, Value], dict[str,
 
 
 def _size(name: str, value: Value) -> int:
-    # Images: the input pays for them.
-    content = value.encode(errors="replace") if isinstance(value, str) else b""
+    content = b""  # Images: the input pays for them.
+    if isinstance(value, str):
+        content = value.encode(errors="replace")
     return len(name.encode(errors="replace")) + len(content) + _ENTRY_BYTES
 
 
@@ -433,12 +443,14 @@ def in_words(names: Iterable[str], metadata: Metadata) -> list[str]:
     for material, words in words_of_materials.items():
         materials_by_words.setdefault(", ".join(words), []).append(material)
     for words_text, materials in materials_by_words.items():
-        plural = "s" if len(materials) > 1 else ""
+        plural, ending = "", ""
+        if len(materials) > 1:
+            plural = "s"
         more = len(materials) - _MOST_NAMED
-        ending = f" and {more} more" if more > 0 else ""
-        phrases.append(
-            f"{words_text} of material{plural} {', '.join(materials[:_MOST_NAMED])}{ending}"
-        )
+        if more > 0:
+            ending = f" and {more} more"
+        named_materials = ", ".join(materials[:_MOST_NAMED])
+        phrases.append(f"{words_text} of material{plural} {named_materials}{ending}")
     return phrases
 
 
@@ -450,7 +462,9 @@ def name_in_file(metadata: Metadata, attribute: Attribute) -> str:
 def components_in_file(metadata: Metadata, attribute: Attribute) -> list[str]:
     """The names that the file of a mesh has for the components of an attribute; none if it has none."""
     names = str(metadata.get(f"{COMPONENTS}{attribute.name}", "")).split("\n")
-    return names if len(names) == attribute.components and all(names) else []
+    if len(names) != attribute.components or not all(names):
+        return []
+    return names
 
 
 def with_none(attributes: Iterable[Attribute]) -> dict[str, npt.NDArray[Any]]:
@@ -522,7 +536,9 @@ def face_numbers(mesh: TriangleMesh, name: str) -> Attribute | None:
         a for a in mesh.attributes if a.name == name and a.domain == "face" and a.components == 1
     )
     attribute = next(fits, None)
-    return attribute if attribute is not None and attribute.values.dtype.kind in "iu" else None
+    if attribute is None or attribute.values.dtype.kind not in "iu":
+        return None
+    return attribute
 
 
 def shown_at_vertices(
@@ -559,6 +575,8 @@ class Library:
                 shared = f"image.{number}.link" in mesh.metadata and re.fullmatch(
                     r"\w[\w .-]*", name
                 )
-                self.images[number] = name if shared else f"{stem}.{number}.{kind}"
+                self.images[number] = f"{stem}.{number}.{kind}"
+                if shared:
+                    self.images[number] = name
                 self.beside[self.images[number]] = data
                 self.written |= {f"image.{number}.{what}" for what in ("data", "name", "link")}

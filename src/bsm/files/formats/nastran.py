@@ -42,8 +42,10 @@ def read_nastran(data: bytes, path: str | None, limits: Limits) -> Polygons:
         if name in ("GRID", *_ELEMENTS):
             cards[name].append((line, fields))
         elif re.fullmatch("CORD[12][RCS]", name):
+            rows = [fields]
             # A card of three nodes may have two systems.
-            rows = [fields[:4], fields[4:8]] if name[4] == "1" else [fields]
+            if name[4] == "1":
+                rows = [fields[:4], fields[4:8]]
             for row in filter(any, rows):
                 number = int(_integers([(line, row)], 0)[0])
                 systems[number] = name, (line, row)
@@ -65,7 +67,9 @@ def read_nastran(data: bytes, path: str | None, limits: Limits) -> Polygons:
                 node_rows = node_rows[:, _ORDER[count]]
             blocks.append((shape, node_rows))
             properties.append(_integers(elements, 1))
-    of_cells = {"property": np.concatenate(properties)} if properties else {}
+    of_cells: dict[str, Ints] = {}
+    if properties:
+        of_cells["property"] = np.concatenate(properties)
     return skin(points, blocks, {}, of_cells, keywords.notes)
 
 
@@ -78,7 +82,9 @@ def _cards(lines: Sequence[str], keywords: Keywords) -> Iterator[tuple[str, int,
         starts and not re.match(r"\s*BEGIN(\s+BULK)?$", _without_remark(lines[starts[0]]), re.I)
     ):
         raise keywords.refusal(lines[starts[-1]].strip()[:40], starts[-1] + 1)
-    first = starts[0] + 1 if starts else 0
+    first = 0
+    if starts:
+        first = starts[0] + 1
     name, begun, fields = "", 0, list[str]()
     for number, raw_line in enumerate(lines[first:], first + 1):
         line = _without_remark(raw_line)
@@ -104,12 +110,15 @@ def _fields(line: str) -> tuple[str, list[str]]:
     first, comma, _ = line.partition(",")
     if comma and re.fullmatch(r"[\w*+]*", first.strip()):
         head, *row = (word.strip() for word in line.split(","))
-        count = 4 if head.endswith("*") else 8
     else:
-        line = line.expandtabs(8)
+        line, width = line.expandtabs(8), 8
         head = line[:8].strip()
-        count, width = (4, 16) if head.endswith("*") else (8, 8)
+        if head.endswith("*"):
+            width = 16
         row = [line[begin : begin + width].strip() for begin in range(8, 72, width)]
+    count = 8
+    if head.endswith("*"):
+        count = 4
     blanks = [""] * (count - len(row))
     return head, [*row[:count], *blanks]
 
@@ -121,7 +130,10 @@ def _without_remark(line: str) -> str:
 def _integers(cards: Sequence[Card], place: int) -> Ints:
     """One field of cards as whole numbers; a blank one is 0."""
     words = [_word(row, place) for _, row in cards]
-    return whole(words, "a card", cards[0][0] if cards else 0)
+    first_line = 0
+    if cards:
+        first_line, _ = cards[0]
+    return whole(words, "a card", first_line)
 
 
 def _word(row: Sequence[str], place: int) -> str:
@@ -134,7 +146,10 @@ def _reals(cards: Sequence[Card]) -> Doubles:
     """The fields of cards as numbers, as Nastran writes them: 7.-3 is 7e-3."""
     fields = " ".join(word or "0" for _, row in cards for word in row)
     words = _EXPONENT.sub(lambda match: f"e{match[1] or ''}", fields).split()
-    width = len(cards[0][1]) if cards else 3
+    width = 3
+    if cards:
+        _, first_row = cards[0]
+        width = len(first_row)
     try:
         return np.array(words, np.float64).reshape(len(cards), width)
     except ValueError:

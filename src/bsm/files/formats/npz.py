@@ -20,7 +20,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import ExitStack, closing, contextmanager, suppress
 from dataclasses import dataclass, field
 from tokenize import TokenError
-from typing import IO, Any, BinaryIO, cast, get_args
+from typing import IO, Any, BinaryIO, Literal, cast, get_args
 
 import numpy as np
 
@@ -63,8 +63,10 @@ def read_header(file: IO[bytes] | Input) -> tuple[tuple[int, ...], bool, Kind]:
     """Shape, whether the order is Fortran's, and type of an array of numbers; nothing is unpickled."""
     begin = file.read(len(NPY) + 2)
     # The header declares its own length, in two bytes in version 1 and in four in those after it.
-    is_first_version = begin[len(NPY) :][:1] == b"\1"
-    length = file.read(2 if is_first_version else 4)
+    bytes_of_length = 4
+    if begin[len(NPY) :][:1] == b"\1":
+        bytes_of_length = 2
+    length = file.read(bytes_of_length)
     declared = int.from_bytes(length, "little")
     text = file.read(min(declared, _MOST_HEADER))
     if begin.startswith(NPY) and (not length or len(text) < declared):
@@ -87,7 +89,10 @@ def read_header(file: IO[bytes] | Input) -> tuple[tuple[int, ...], bool, Kind]:
 
 
 def _shaped(data: bytes, shape: tuple[int, ...], fortran: bool, kind: Kind) -> Array:
-    return np.frombuffer(data, kind).reshape(shape, order="F" if fortran else "C")
+    order: Literal["C", "F"] = "C"
+    if fortran:
+        order = "F"
+    return np.frombuffer(data, kind).reshape(shape, order=order)
 
 
 def read_npy(file: Input, bound: str = "vertices", limits: Limits = DEFAULT_LIMITS) -> Array | None:
@@ -294,11 +299,13 @@ def _beside(
                 is_metadata or max(array.shape, default=0) <= most_rows
             ):
                 continue
-            of_corners = (
-                NpzArray(archive, f"{name}/indices") if f"{name}/indices" in indices else None
-            )
-            inflated += array.size * TREE if is_metadata else array.size
-            if of_corners is not None:
+            inflated_size = array.size
+            if is_metadata:
+                inflated_size *= TREE
+            inflated += inflated_size
+            of_corners: NpzArray | None = None
+            if f"{name}/indices" in indices:
+                of_corners = NpzArray(archive, f"{name}/indices")
                 inflated += AS_NUMBERS * math.prod(of_corners.shape)
             require_inflated(inflated, compressed, limits)
             values = array.read_array()
@@ -479,7 +486,9 @@ def read_archive(source: Input, limits: Limits) -> Frames | None:
         extras.columns, len(mesh.positions), len(faces), corners, faces
     )
     extras.unread.extend(refused)
-    notes = (f"left out: {', '.join(extras.dropped)}",) if extras.unread else ()
+    notes: tuple[str, ...] = ()
+    if extras.unread:
+        notes = (f"left out: {', '.join(extras.dropped)}",)
     meshes, attributes = None, still
     if extras.moving:
         meshes = _with_attributes(archive, mesh.faces, still, extras.moving)

@@ -16,7 +16,7 @@ from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.files.conventions import shares_of
 from bsm.files.formats import metadata as materials
-from bsm.files.formats.appearance import is_mtl, one_line, text_of, write_mtl
+from bsm.files.formats.appearance import Material, is_mtl, one_line, text_of, write_mtl
 from bsm.files.formats.polygons import (
     PLURALS,
     Column,
@@ -87,7 +87,9 @@ def read_obj(
             indices = np.where(indices == _NOWHERE, -1, indices)
             columns.append(Column(name, _texcoords(rows), "corner", name, indices))
         elif len(rows.counts):
-            flat = (positions, sizes, corners) if name == "normal" else None
+            flat: tuple[Doubles, Ints, Ints] | None = None
+            if name == "normal":
+                flat = positions, sizes, corners
             column, note = _corner_column(rows, name, lines.places(which), flat)
             columns += column
             notes += note
@@ -163,8 +165,11 @@ class _PlainLines:
         tables = positions, texcoords, normals
         self.sizes: Ints = np.empty(faces, np.int64)
         self._corners = corners
-        places_of_texcoords = np.empty(corners if with_texcoords else 0, np.int64)
-        places_of_normals = np.empty(corners if with_normals else 0, np.int64)
+        places_of_texcoords = places_of_normals = np.empty(0, np.int64)
+        if with_texcoords:
+            places_of_texcoords = np.empty(corners, np.int64)
+        if with_normals:
+            places_of_normals = np.empty(corners, np.int64)
         self._places = np.empty(corners, np.int64), places_of_texcoords, places_of_normals
         lines, hard = np.empty((others, 3), np.int64), np.empty((words, 4), np.int64)
         arrays = (*tables, self.sizes, *self._places, lines, hard)
@@ -185,7 +190,9 @@ class _PlainLines:
 
     def places(self, which: int) -> Ints:
         places = self._places[which]
-        return places if len(places) == self._corners else np.full(self._corners, _NOWHERE)
+        if len(places) != self._corners:
+            return np.full(self._corners, _NOWHERE)
+        return places
 
     def values_of(self, keyword: bytes) -> list[bytes]:
         return [name for _, name in self._others.get(keyword, ())]
@@ -287,7 +294,10 @@ def _corner_column(
     missing = indices == _NOWHERE
     if missing.all():
         return [], []
-    values = _texcoords(table) if name == "texcoord" else table.columns(0, 3)
+    if name == "texcoord":
+        values = _texcoords(table)
+    else:
+        values = table.columns(0, 3)
     notes: list[str] = []
     if missing.any():  # after all other values there are those of the faces, or zeros
         substitute = "zeros"
@@ -311,7 +321,9 @@ def _texcoords(table: Rows) -> Doubles:
     for place in range(_MOST_NUMBERS):
         has_number = table.counts > place
         values[has_number, place] = table.values[table.starts[has_number] + place]
-    return values if values[:, 2].any() else values[:, :2]
+    if not values[:, 2].any():
+        values = values[:, :2]
+    return values
 
 
 def _states(lines: _Lines | _PlainLines) -> tuple[list[Column], dict[str, str], list[str]]:
@@ -373,19 +385,26 @@ def write_obj(mesh: TriangleMesh, stem: str) -> materials.Written:
     indices, corner = [mesh.faces], "{}"
     for keyword, attribute in (("vt", texcoord), ("vn", normal)):
         if attribute is not None:
-            number = " {!r}" if attribute.values.dtype == np.float64 else " {:.9g}"
+            number = " {:.9g}"
+            if attribute.values.dtype == np.float64:
+                number = " {!r}"
             joined = materials.without_seams(attribute, mesh)  # VTK shades only these smoothly
             parts.append(
                 text_table(f"{keyword}{number * attribute.components}\n", joined.values).decode()
             )
-            indices.append(mesh.faces if joined.indices is None else joined.indices)
-            corner += "/{}" if keyword == "vt" or texcoord else "//{}"
+            corner_indices = mesh.faces if joined.indices is None else joined.indices
+            indices.append(corner_indices)
+            if keyword == "vn" and texcoord is None:
+                corner += "/"
+            corner += "/{}"
     columns = np.stack(indices, axis=2).reshape(len(mesh.faces), -1) + 1
     nothing = np.zeros(len(mesh.faces), np.int64)
     states: dict[str, npt.NDArray[Any]] = {}
     for what, attribute in numbers.items():
         if names[what]:
-            states[what] = nothing if attribute is None else attribute.values[:, 0]
+            states[what] = nothing
+            if attribute is not None:
+                states[what] = attribute.values[:, 0]
     order = _grouped(list(states.values()), len(mesh.faces))
     faces = map(f"f {corner} {corner} {corner}\n".format, *columns[order].T.tolist())
     before = np.full(len(mesh.faces), "", dtype=object)
@@ -424,10 +443,12 @@ def _names(mesh: TriangleMesh, what: str, attribute: Attribute | None) -> dict[i
     """Return the names of the materials (groups, ...) of the faces, by number; empty if none are known."""
     names = materials.names_in(mesh.metadata, what)
     used = [0] if attribute is None else np.unique(attribute.values).tolist()
+    library_materials: dict[int, Material] = {}
     # A library may hold some of no face.
-    has = materials.materials_in(mesh.metadata) if what == "material" else {}
-    names_by_number = {number: names.get(number) for number in (*used, *has)}
-    if attribute is None and not has and not any(names_by_number.values()):
+    if what == "material":
+        library_materials = materials.materials_in(mesh.metadata)
+    names_by_number = {number: names.get(number) for number in (*used, *library_materials)}
+    if attribute is None and not library_materials and not any(names_by_number.values()):
         return {}
     unique_names: dict[int, str] = {}
     uses: dict[str, int] = {}

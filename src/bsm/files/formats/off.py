@@ -80,10 +80,14 @@ def _vertex_columns(
     """Normals, colors and texture coordinates, in this order (NC: colors first, by MeshLab); and unknown letters."""
     columns: list[Column] = []
     place = 3
-    texcoords = 2 if b"ST" in extras else 0
-    colors_first = b"NC" in extras
-    kinds = (b"C", b"N") if colors_first else (b"N", b"C")
-    numbers_after_color = texcoords + (3 if colors_first else 0)
+    has_texcoords = b"ST" in extras
+    kinds = [b"N", b"C"]
+    numbers_after_color = 0
+    if has_texcoords:
+        numbers_after_color += 2
+    if b"NC" in extras:
+        kinds.reverse()
+        numbers_after_color += 3
     for kind in kinds:
         if kind not in extras:
             continue
@@ -92,12 +96,14 @@ def _vertex_columns(
             place += 3
             continue
         numbers = int(points.counts.min(initial=100)) - place - numbers_after_color
-        width = 4 if numbers >= 4 else 3
+        width = 3
+        if numbers >= 4:
+            width = 4
         values = points.columns(place, width)
         words = [b" ".join(line.split()[place : place + width]) for line in lines]
         columns.append(color_column(values, "vertex", written_whole=_are_whole(values, words)))
         place += width
-    if texcoords:
+    if has_texcoords:
         columns.append(Column("texcoord", compact(points.columns(place, 2)), semantic="texcoord"))
         place += 2
     if (points.counts > place).any():
@@ -124,7 +130,11 @@ def write_off(mesh: TriangleMesh, stem: str) -> Written:
     normal, color, texcoord = (first(mesh, kind, width, "vertex") for kind, width in widths.items())
     of_faces = first(mesh, "color", (3, 4), "face")
     comments, omitted = remarks(mesh.metadata)
-    keyword = f"{'ST' if texcoord else ''}{'C' if color else ''}{'N' if normal else ''}OFF"
+    keyword = ""
+    for prefix, attribute in (("ST", texcoord), ("C", color), ("N", normal)):
+        if attribute is not None:
+            keyword += prefix
+    keyword += "OFF"
     head = "".join([f"{keyword}\n", *(f"# {line}\n" for line in comments)])
     counts = f"{len(mesh.positions)} {len(mesh.faces)} 0\n"
     point, behind = _row([normal, color, texcoord])

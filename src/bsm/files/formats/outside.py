@@ -9,7 +9,7 @@ import re
 from collections.abc import Iterator
 from contextlib import suppress
 from pathlib import Path
-from typing import Any
+from typing import Any, BinaryIO, cast
 from xml.etree import ElementTree
 
 from bsm.bitstream.errors import FormatError, imported
@@ -117,14 +117,19 @@ def _refuse_links(folder: Path) -> None:
 
 def _pieces(path: Path, overlap: int) -> Iterator[bytes]:
     """Yield the bytes of a file, also of one that gzip has compressed, in pieces that overlap."""
-    with open(path, "rb") as plain:
-        packed = plain.read(2) == b"\x1f\x8b"
-        plain.seek(0)
-        with gzip.open(plain) if packed else plain as file, as_library_error("gzip"):
-            end = b""
-            while piece := file.read(_PIECE):
-                yield end + piece
-                end = piece[-overlap:]
+    with open(path, "rb") as plain, _unpacked(plain) as file, as_library_error("gzip"):
+        end = b""
+        while piece := file.read(_PIECE):
+            yield end + piece
+            end = piece[-overlap:]
+
+
+def _unpacked(file: BinaryIO) -> BinaryIO:
+    packed = file.read(2) == b"\x1f\x8b"
+    file.seek(0)
+    if packed:
+        return cast(BinaryIO, gzip.open(file))
+    return file
 
 
 # ------------------------------------------------------------------------------------------------------- HDF5
@@ -166,10 +171,11 @@ def _named_in(h5py: Any, file: Any) -> list[tuple[str, str]]:
             raise FormatError(
                 f"the table {name} is in the file {item.external[0][0]}; write it into the HDF5 file"
             )
-        sources = item.virtual_sources() if item.is_virtual else ()
+        if not item.is_virtual:
+            return
         links.extend(
             (str(source.file_name), str(source.dset_name))
-            for source in sources
+            for source in item.virtual_sources()
             if source.file_name != "."
         )
 
@@ -217,8 +223,9 @@ def _layers_named_in(pxr: Any, layer: Any) -> Iterator[str]:
         if not prim:
             raise FormatError("a layer of this stage is damaged: it has a prim without contents")
         for field in ("references", "payload"):
-            arcs = prim.GetInfo(field).GetAddedOrExplicitItems() if prim.HasInfo(field) else ()
-            yield from filter(None, (arc.assetPath for arc in arcs))
+            if prim.HasInfo(field):
+                arcs = prim.GetInfo(field).GetAddedOrExplicitItems()
+                yield from filter(None, (arc.assetPath for arc in arcs))
 
 
 def _resolved(pxr: Any, layer: Any, name: str, folder: Path) -> str:
@@ -228,15 +235,18 @@ def _resolved(pxr: Any, layer: Any, name: str, folder: Path) -> str:
             "the name of a layer is an expression here; flatten the stage, e.g. with usdcat --flatten"
         )
     plain, _ = pxr.Sdf.Layer.SplitIdentifier(name)
-    anchored = pxr.Sdf.ComputeAssetPathRelativeToLayer(layer, plain) if plain else ""
-    resolver = pxr.Ar.GetResolver()
-    resolved = str(resolver.Resolve(anchored)) if anchored else ""
-    if resolved:
-        is_packed = pxr.Ar.IsPackageRelativePath(resolved)
-        file_beside(
-            folder, pxr.Ar.SplitPackageRelativePathOuter(resolved)[0] if is_packed else resolved
-        )
-    return resolved
+    if not plain:
+        return ""
+    anchored = pxr.Sdf.ComputeAssetPathRelativeToLayer(layer, plain)
+    if not anchored:
+        return ""
+    path = str(pxr.Ar.GetResolver().Resolve(anchored))
+    outer_path = path
+    if pxr.Ar.IsPackageRelativePath(path):
+        outer_path, _ = pxr.Ar.SplitPackageRelativePathOuter(path)
+    if path:
+        file_beside(folder, outer_path)
+    return path
 
 
 def refuse_clips_outside(pxr: Any, stage: Any, path: str) -> None:

@@ -210,7 +210,9 @@ def _typed(values: Array, kind: str) -> Array:
     with np.errstate(all="ignore"):
         converted = values.astype(kind)
         same = np.dtype(kind).kind == "f" or np.array_equal(converted, values)
-    return converted if same else values
+    if not same:
+        return values
+    return converted
 
 
 @dataclass
@@ -249,10 +251,14 @@ class _Table:
         # The bytes of the length of each property's lists (0: it is a number), and of an item.
         widths: list[tuple[int, int]] = []
         for column in self.element.properties:
-            length = self._size(column.length) if column.length else 0
+            length = 0
+            if column.length:
+                length = self._size(column.length)
             widths.append((length, self._size(column.type)))
+        count = self.element.count
         # Rows without properties take no bytes, however many they are.
-        count = self.element.count if widths else 0
+        if not widths:
+            count = 0
         # Every row is at least as long as its numbers and the lengths of its lists.
         least = sum(length or width for length, width in widths)
         missing = self.begin + count * least - len(self.raw)
@@ -277,7 +283,9 @@ class _Table:
 
     def _size(self, kind: str) -> int:
         """The bytes of a number; those of a text have eight."""
-        return np.dtype(kind).itemsize if self.text is None else 8
+        if self.text is not None:
+            return 8
+        return np.dtype(kind).itemsize
 
 
 # -------------------------------------------------------------------------------------------------- reading and writing
@@ -399,13 +407,17 @@ def _columns(
         for name in names:
             del types[name]
         is_usual = (semantic, names) in _USUAL and not (textured and semantic == "texcoord")
-        yield replace(group, components=() if is_usual else names)
+        if not is_usual:
+            group = replace(group, components=names)
+        yield group
     material_names = [name for name in types if name in _NAMES]
     for name, members in _series(types):
         short_name = _NAMES.get(name, name)
         if name == _TEXTURE and len(material_names) > 1:
             short_name = name  # another property has the materials
-        file_name = name if short_name != name else ""
+        file_name = ""
+        if short_name != name:
+            file_name = name
         yield Column(short_name, values_of(members), domain, file_name=file_name)
 
 
@@ -483,7 +495,9 @@ def _wedges(
             continue
         rows = np.zeros((int(sizes.sum()), width), values.dtype)  # a face without any gets zeros
         rows[np.repeat(is_full, sizes)] = values.reshape(-1, width)
-        file_name = _WEDGES if name == _WEDGES and not textured else ""
+        file_name = ""
+        if name == _WEDGES and not textured:
+            file_name = _WEDGES
         columns.append(Column(name, rows, "corner", meaning_of(name, width), file_name=file_name))
         if not is_full.all():
             notes.append(
@@ -507,9 +521,11 @@ def write_ply(mesh: TriangleMesh, stem: str) -> formats.Written:
     mesh = formats.split_at_seams(
         mesh, *(attribute for attribute in mesh.attributes if attribute is not wedges)
     )
-    single = np.float32 if single_suffices(mesh.positions) else np.float64
+    positions: Array = mesh.positions
+    if single_suffices(positions):
+        positions = positions.astype(np.float32)
     columns: dict[str, list[tuple[str, Array]]] = {
-        "vertex": list(zip("xyz", mesh.positions.astype(single).T)),
+        "vertex": list(zip("xyz", positions.T)),
         "face": [("vertex_indices", mesh.faces)],
     }
     values = formats.with_none(mesh.attributes)
@@ -597,7 +613,9 @@ def _wedge_texcoords(mesh: TriangleMesh, *, textured: bool, several: bool) -> At
     if mesh.metadata.get(f"{formats.CALLED}{texcoord.name}") == _WEDGES:
         return texcoord
     has_seams = formats.without_seams(texcoord, mesh).domain == "corner"
-    return texcoord if textured and (several or has_seams) else None
+    if not textured or not (several or has_seams):
+        return None
+    return texcoord
 
 
 def _property_names(attribute: Attribute, metadata: Metadata, names_taken: list[str]) -> list[str]:
@@ -615,7 +633,9 @@ def _property_names(attribute: Attribute, metadata: Metadata, names_taken: list[
     file_name = re.sub(r"\s", "_", formats.name_in_file(metadata, attribute))
     property_names: list[str] = []
     for place in range(attribute.components):
-        wished_name = file_name if attribute.components == 1 else f"{file_name}_{place}"
+        wished_name = file_name
+        if attribute.components > 1:
+            wished_name = f"{file_name}_{place}"
         property_names.append(
             unused_name(wished_name, attribute.domain, [*names_taken, *property_names])
         )

@@ -121,7 +121,9 @@ def joined_columns(parts: Sequence[Part]) -> tuple[list[Column], list[str]]:
         joined.append(column)
         missing = alike.count(None)
         if missing:
-            filling = "white" if column.semantic == "color" else "zeros"
+            filling = "zeros"
+            if column.semantic == "color":
+                filling = "white"
             notes.append(f"parts without {PLURALS.get(name, name)} were given {filling}: {missing}")
     return joined, notes
 
@@ -195,7 +197,9 @@ def _concatenated(parts: Sequence[Part], columns: list[Column | None]) -> Column
         tables.append(column.values)
         places.append(begin + indices)
         begin += len(column.values)
-    indices_of_corners = np.concatenate(places) if model.domain == "corner" else None
+    indices_of_corners: Ints | None = None
+    if model.domain == "corner":
+        indices_of_corners = np.concatenate(places)
     return replace(model, values=np.concatenate(tables), indices=indices_of_corners)
 
 
@@ -205,10 +209,10 @@ def _with_shares(column: Column) -> Column:
 
 def _blank_column(part: Part, model: Column) -> Column:
     """Return a column of blank values for a part: one value for all corners, or one for each vertex or face."""
-    count = {"vertex": len(part.positions), "face": len(part.sizes), "corner": len(part.corners)}[
-        model.domain
-    ]
-    size = min(count, 1) if model.domain == "corner" else count
+    counts = {"vertex": len(part.positions), "face": len(part.sizes), "corner": len(part.corners)}
+    count = size = counts[model.domain]
+    if model.domain == "corner":
+        size = min(count, 1)
     values = np.full((size, model.values.shape[1]), _blank(model), model.values.dtype)
     return replace(model, values=values, indices=np.zeros(count, np.int64))
 
@@ -216,7 +220,7 @@ def _blank_column(part: Part, model: Column) -> Column:
 def polygon_normals(positions: Doubles, sizes: Ints, corners: Ints) -> Doubles:
     """The unit normals of polygons; zeros for polygons without area, or whose corners do not exist."""
     first, owner = np.cumsum(sizes) - sizes, np.repeat(np.arange(len(sizes)), sizes)
-    if corners.size and not 0 <= corners.min() <= corners.max() < len(positions):
+    if not corners.size or not 0 <= corners.min() <= corners.max() < len(positions):
         return np.zeros((len(sizes), 3))
     after = np.arange(1, len(corners) + 1)
     after[first[sizes > 0] + sizes[sizes > 0] - 1] = first[sizes > 0]
@@ -224,10 +228,9 @@ def polygon_normals(positions: Doubles, sizes: Ints, corners: Ints) -> Doubles:
         # From the first corner and not from the origin: far off, the products of coordinates would lose the area in
         # rounding.
         points = positions[corners] - positions[corners[first[owner]]]
-        vectors = np.cross(points, points[after]) if len(corners) else points
-        return unit_rows(
-            np.column_stack([np.bincount(owner, axis, len(sizes)) for axis in vectors.T])
-        )
+        vectors = np.cross(points, points[after])
+        sums = [np.bincount(owner, axis, len(sizes)) for axis in vectors.T]
+        return unit_rows(np.column_stack(sums))
 
 
 def unit_rows(vectors: Doubles, blank: Sequence[float] = (0.0, 0.0, 0.0)) -> Doubles:
@@ -256,15 +259,20 @@ def grouped(what: str, names: Sequence[str], of_face: Ints) -> tuple[list[Column
     used = [names[i] for i in changes.tolist()]
     numbers = {name: number for number, name in enumerate(dict.fromkeys(used))}
     of_change = np.array([numbers[name] for name in used], np.int32)
-    columns = [Column(what, of_change[places], "face")] if len(numbers) > 1 else []
-    return columns, named(list(numbers), what) if any(numbers) else {}
+    columns: list[Column] = []
+    metadata: dict[str, str] = {}
+    if len(numbers) > 1:
+        columns.append(Column(what, of_change[places], "face"))
+    if any(numbers):
+        metadata = named(list(numbers), what)
+    return columns, metadata
 
 
 def unused_name(name: str, domain: str, taken_names: Collection[str]) -> str:
     if name not in taken_names:
         return name
-    longer_name = name if name.startswith(domain) else f"{domain}_{name}"
-    if longer_name not in taken_names:
+    longer_name = f"{domain}_{name}"
+    if not name.startswith(domain) and longer_name not in taken_names:
         return longer_name
     return next(
         candidate
@@ -288,9 +296,8 @@ def compact(values: Array) -> Array:
 def color_column(values: Array, domain: Domain, *, written_whole: bool = False) -> Column:
     """Return colors as a file has them: bytes, or floats from 0 to 1; numbers beyond that mean nothing known."""
     if values.dtype.kind != "f":
-        return Column(
-            "color", values, domain, "color" if values.dtype in (np.uint8, np.uint16) else "generic"
-        )
+        are_colors = values.dtype in (np.uint8, np.uint16)
+        return Column("color", values, domain, _semantic_of_colors(are_colors))
     has_color = np.isfinite(values).all(axis=1)
     # Some have no color, and the others tell what they are.
     if has_color.any() and not has_color.all():
@@ -300,12 +307,21 @@ def color_column(values: Array, domain: Domain, *, written_whole: bool = False) 
         return replace(known_colors, values=compact(values))
     if not values.size or not has_color.all():
         return Column("color", values, domain)
-    exact = values if written_whole or values.max() > 1 else values * 255
+    exact = values
+    if not written_whole and values.max() <= 1:
+        exact = values * 255
     levels = np.rint(exact)
     if levels.min() >= 0 and levels.max() <= 255 and np.abs(levels - exact).max() <= 255e-6:
         return Column("color", levels.astype(np.uint8), domain, "color")
-    in_range = values.min() >= 0 and values.max() <= 1
-    return Column("color", compact(values), domain, "color" if in_range else "generic")
+    in_range = bool(values.min() >= 0 and values.max() <= 1)
+    return Column("color", compact(values), domain, _semantic_of_colors(in_range))
+
+
+def _semantic_of_colors(in_range: bool) -> Semantic:
+    """The semantic of values that a file calls colors, which mean nothing known beyond the range of colors."""
+    if in_range:
+        return "color"
+    return "generic"
 
 
 def named_column(
@@ -406,7 +422,9 @@ class Polygons:
         positions, sizes, corners = self.positions, self.sizes, self.corners
         triangles = int(np.maximum(sizes - 2, 0).sum())
         require_counts(limits, vertices=len(positions), faces=triangles)
-        per_triangle = PER_TRIANGLE if (sizes == 3).all() else PER_CUT
+        per_triangle = PER_CUT
+        if (sizes == 3).all():
+            per_triangle = PER_TRIANGLE
         # Before any triangle is made.
         limits.check_memory(
             per_triangle * triangles + PER_CORNER * len(corners), len(positions), received
@@ -447,11 +465,9 @@ class Polygons:
     def _require_sound(self) -> None:
         """Refuse polygons without faces, or with vertices that are not there or not finite."""
         if not (self.sizes > 0).any():
-            reason = (
-                f"it has {', '.join(self.dropped)}"
-                if self.dropped
-                else "point clouds are not supported"
-            )
+            reason = "point clouds are not supported"
+            if self.dropped:
+                reason = f"it has {', '.join(self.dropped)}"
             raise NoFacesError(f"the file has no faces that can be read; {reason}")
         outside = (self.corners < 0) | (self.corners >= len(self.positions))
         if outside.any():

@@ -29,7 +29,9 @@ _UNKNOWN = (0, 0xFFFFFFFF)  # numbers of triangles by programs that did not know
 # The word "solid" at the beginning does not tell: several programs write it into the 80 bytes before binary records.
 def is_text(head: bytes, size: int | None) -> bool:
     """Return whether an STL is text; binary files that begin with "solid" have zeros or the right size."""
-    claimed = int.from_bytes(head[HEAD - 4 : HEAD], "little") if len(head) >= HEAD else -1
+    claimed = -1
+    if len(head) >= HEAD:
+        claimed = int.from_bytes(head[HEAD - 4 : HEAD], "little")
     if size == HEAD + RECORD.itemsize * claimed or b"\0" in head[:1024]:
         return False
     begins_so = head.removeprefix(BOM_UTF8).lstrip()[:5].lower() == b"solid"
@@ -59,7 +61,9 @@ def binary_triangles(head: bytes, size: int | None) -> tuple[int, str]:
         )
     if records == claimed or (claimed not in _UNKNOWN and rest):
         beyond = size - HEAD - RECORD.itemsize * claimed
-        return claimed, f"{beyond} bytes after the last triangle" if beyond else ""
+        if not beyond:
+            return claimed, ""
+        return claimed, f"{beyond} bytes after the last triangle"
     return (
         records,
         f"the number of triangles in the header ({claimed}; by its size, the file has {records})",
@@ -80,7 +84,9 @@ def read_stl(data: bytes, limits: Limits) -> Polygons:
             soup = records["corners"].reshape(-1, 3).astype(np.float64)
         header = data[: HEAD - 4].rstrip(b"\0 ")
         if header.strip(b"\0 "):
-            key = "provenance" if header.startswith(b"bsm ") else _HEADER
+            key = _HEADER
+            if header.startswith(b"bsm "):
+                key = "provenance"
             metadata[key] = header.decode("latin-1")
         if records["attribute"].any():
             columns.append(Column(_ATTRIBUTE, records["attribute"][:, None], "face"))
@@ -89,7 +95,7 @@ def read_stl(data: bytes, limits: Limits) -> Polygons:
     corners, first, *_ = GivenMesh(faces, group_rows(soup)).join(True, True)
     note = f"STL knows no vertices: {len(soup)} corners with equal coordinates were joined to {len(first)} vertices"
     sizes = np.full(len(soup) // 3, 3)
-    dropped = (wrong,) if wrong else ()
+    dropped = tuple(filter(None, [wrong]))
     return Polygons(
         sealed(soup[first]),
         sizes,
@@ -138,21 +144,25 @@ def _of_text(data: bytes) -> tuple[Doubles, list[Column], dict[str, str], str]:
         )
     used, of_facet = np.unique(np.array(facets, np.int64), return_inverse=True)
     solid_names = [("", *names)[solid] for solid in used.tolist()]
-    columns = [Column("group", of_facet.astype(np.int32), "face")] if len(used) > 1 else []
-    others = re.findall(
+    columns: list[Column] = []
+    metadata: dict[str, str] = {}
+    if len(used) > 1:
+        columns.append(Column("group", of_facet.astype(np.int32), "face"))
+    if any(solid_names):
+        metadata = named(solid_names, "group")
+    corners = Rows(lines, "corner").columns(0, 3)
+    return corners, columns, metadata, _foreign_lines(data)
+
+
+def _foreign_lines(data: bytes) -> str:
+    """Say how the lines begin that no STL has; "" if there are none."""
+    words = re.findall(
         rb"(?im)^[ \t]*(?!(?:(?:end)?(?:solid|facet|loop)|outer|vertex)\b)(\S+)", data
     )
-    wrong = (
-        f"lines that begin with {', '.join(sorted({text_of(word) for word in others}))}"[:200]
-        if others
-        else ""
-    )
-    return (
-        Rows(lines, "corner").columns(0, 3),
-        columns,
-        named(solid_names, "group") if any(solid_names) else {},
-        wrong,
-    )
+    if not words:
+        return ""
+    distinct_words = sorted(set(map(text_of, words)))
+    return f"lines that begin with {', '.join(distinct_words)}"[:200]
 
 
 def write_stl(mesh: TriangleMesh, stem: str) -> Written:
@@ -166,7 +176,9 @@ def write_stl(mesh: TriangleMesh, stem: str) -> Written:
         color = None
     if color is not None:
         triangles["attribute"] = color.values[:, 0]
-    key = _HEADER if _HEADER in mesh.metadata else "provenance"
+    key = "provenance"
+    if _HEADER in mesh.metadata:
+        key = _HEADER
     header = str(mesh.metadata.get(key, "")).encode("latin-1", "replace")
     lost = [name for name in mesh.metadata if name != key]
     if len(header) >= HEAD - 3 or header.startswith(b"solid"):  # which would be a text

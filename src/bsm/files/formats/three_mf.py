@@ -317,21 +317,20 @@ def _written(library: Any, mesh: TriangleMesh) -> formats.Written:
             f"{sorting.name}.names",
             *(f"{sorting.name}.{number}.name" for number in objects),
         }
-    face_materials = (
-        np.zeros(len(mesh.faces), np.int64) if numbers is None else numbers.values[:, 0]
-    )
-    painted = (
-        _colored(library, model, face_materials, materials, metadata_held) if materials else None
-    )
+    face_materials: Array = np.zeros(len(mesh.faces), np.int64)
+    if numbers is not None:
+        face_materials = numbers.values[:, 0]
+    painted: Array | None = None
+    if materials:
+        painted = _colored(library, model, face_materials, materials, metadata_held)
     looks = [number for number, words in materials.items() if words.keys() - {"name"}]
     # A triangle has the color of its material, or of its corners.
     hidden = np.isin(face_materials, looks)
     color = formats.first(mesh, "color", (3, 4), "vertex", "corner", "face")
-    tinted = (
-        None
-        if color is None
-        else _tinted(library, model, _bytes_of(at_corners(color, mesh.faces)), hidden)
-    )
+    tinted: Array | None = None
+    if color is not None:
+        colors = _bytes_of(at_corners(color, mesh.faces))
+        tinted = _tinted(library, model, colors, hidden)
     if tinted is None:
         color = None
     elif painted is None:
@@ -340,7 +339,9 @@ def _written(library: Any, mesh: TriangleMesh) -> formats.Written:
         painted = np.where(hidden, painted, tinted)
     for name, rows in objects.values():
         item = model.AddMeshObject()
-        used = np.arange(len(positions)) if sorting is None else np.unique(mesh.faces[rows])
+        used = np.arange(len(positions))
+        if sorting is not None:
+            used = np.unique(mesh.faces[rows])
         corners = np.searchsorted(used, mesh.faces[rows]).astype(np.uint32)
         points = positions[used].astype(np.float32)
         tables = (*_counted(points, library.Position), *_counted(corners, library.Triangle))
@@ -370,10 +371,10 @@ def _written(library: Any, mesh: TriangleMesh) -> formats.Written:
     decimals = 8 - math.floor(math.log10(largest))
     writer.SetDecimalPrecision(int(np.clip(decimals, 0, 15)))  # more of them go wrong
     data = _table(writer, "writer_writetobuffer", ctypes.c_uint8).tobytes()
-    written_attributes = [numbers if materials else None, sorting, color]
-    left_out = formats.left_out(
-        mesh, written_attributes, [name for name in mesh.metadata if name not in metadata_held]
-    )
+    if not materials:
+        numbers = None
+    lost = [name for name in mesh.metadata if name not in metadata_held]
+    left_out = formats.left_out(mesh, [numbers, sorting, color], lost)
     if color is not None and color.values.dtype != np.uint8:
         left_out = (*left_out, f"{color.name} beyond 8 bits")
     return formats.Written(data, left_out)

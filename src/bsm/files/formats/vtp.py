@@ -107,7 +107,9 @@ class _Document:
         if sum(element.tag == "Piece" for element in elements) > 1:
             raise MeshError("this VTP file has several pieces; save it as one")
         file = self.tags.get("VTKFile", {})
-        self._order = ">" if file.get("byte_order") == "BigEndian" else "<"
+        self._order = "<"
+        if file.get("byte_order") == "BigEndian":
+            self._order = ">"
         head = _HEADS.get(file.get("header_type", "UInt32"))
         if head is None:
             raise FormatError(f"headers of blocks cannot be {file['header_type']}")
@@ -125,7 +127,9 @@ class _Document:
 
     def numbers(self, array: ElementTree.Element) -> Array:
         """The numbers of an array, shape (k, c)."""
-        kind = "u1" if array.get("type") == "String" else _TYPES.get(array.get("type", ""))
+        kind = _TYPES.get(array.get("type", ""))
+        if array.get("type") == "String":
+            kind = "u1"
         if kind is None:
             raise MeshError(f"numbers cannot be {array.get('type')}")
         components = _count(array.attrib, "NumberOfComponents", 1)
@@ -144,12 +148,15 @@ class _Document:
     def _of_text(self, text: str, kind: np.dtype) -> Array:
         # A number and the space after it take two letters at least.
         self._require(AS_NUMBERS * (len(text) // 2))
+        parsed_kind: Any = np.int64
+        if kind.kind == "f":
+            parsed_kind = np.float64
         with warnings.catch_warnings():
             warnings.simplefilter("error")
             try:
                 # Not float() of each word, which takes much longer. It only warns of words that are not numbers, so
                 # warnings are errors.
-                values = np.fromstring(text, np.float64 if kind.kind == "f" else np.int64, sep=" ")
+                values = np.fromstring(text, parsed_kind, sep=" ")
             except (ValueError, DeprecationWarning) as error:
                 raise MeshError(f"expected numbers: {error}") from error
         with np.errstate(over="ignore", invalid="ignore"):
@@ -245,7 +252,9 @@ def read_vtp(data: bytes, limits: Limits) -> Polygons:
     fields: dict[str, ElementTree.Element] = {}
     for section, array in document.arrays:
         name = array.get("Name", "")
-        key = name if section in _CELLS else ""
+        key = ""
+        if section in _CELLS:
+            key = name
         arrays[section, key] = array
         if section == "FieldData":
             fields[name] = array
@@ -282,8 +291,11 @@ def _parse(data: bytes, limits: Limits) -> _Document:
     """Return the document of a file, and with it the bytes after the XML."""
     text, appended, is_raw = data, b"", False
     begin = data.find(b"<AppendedData")
-    end = data.find(b">", begin) if begin >= 0 else -1
-    match = _UNDERSCORE.match(data, end + 1) if end >= 0 else None
+    match = None
+    if begin >= 0:
+        end = data.find(b">", begin)
+        if end >= 0:
+            match = _UNDERSCORE.match(data, end + 1)
     # The bytes after the XML are not XML. The parser gets the part before them, closed by hand.
     if match is not None:
         text, appended = data[:begin] + b"</VTKFile>", data[match.end() :]
@@ -353,9 +365,10 @@ def _fields(metadata: Metadata) -> Iterator[tuple[str, str, Array]]:
             yield name, "String", np.frombuffer(text + b"\0", np.uint8)
         elif isinstance(value, bytes):
             yield name, "UInt8", np.frombuffer(value, np.uint8)
+        elif isinstance(value, int):
+            yield name, "Int64", np.array([value], np.int64)
         else:
-            values = np.array([value], np.int64 if isinstance(value, int) else np.float64)
-            yield name, _NAMES[values.dtype.str[1:]], values
+            yield name, "Float64", np.array([value], np.float64)
 
 
 class _Appended:
@@ -368,9 +381,13 @@ class _Appended:
     def add(self, name: str, values: Array, kind: str = "", components: Sequence[str] = ()) -> str:
         """Return the element of an array: of a kind, a field of one value; else a row for each thing, with names."""
         data = np.ascontiguousarray(values.astype(values.dtype.newbyteorder("<"))).tobytes()
-        tag = "Array" if kind == "String" else "DataArray"
-        count = "Tuples" if kind else "Components"
-        width = values.shape[1] if values.ndim == 2 else 1
+        tag, count, width = "DataArray", "Components", 1
+        if kind == "String":
+            tag = "Array"
+        if kind:
+            count = "Tuples"
+        if values.ndim == 2:
+            width = values.shape[1]
         names = "".join(
             f"ComponentName{place}={_quoted(word)} " for place, word in enumerate(components)
         )
@@ -394,7 +411,9 @@ def write_vtp(mesh: TriangleMesh, stem: str) -> Written:
     """Return the VTP of a mesh, with arrays as bytes after the XML; ParaView colors by the first number of vertices."""
     # VTK has values of points and of cells, and none of corners.
     mesh = split_at_seams(mesh, *mesh.attributes)
-    kind = np.float32 if single_suffices(mesh.positions) else np.float64
+    kind: Any = np.float64
+    if single_suffices(mesh.positions):
+        kind = np.float32
     vertices, faces = len(mesh.positions), len(mesh.faces)
     appended = _Appended()
     fields = [

@@ -93,7 +93,9 @@ def read_vtk(
         is_exodus = name == "vtkExodusIIReader"
         if is_exodus and step is not None:
             reader.SetApplyDisplacements(1)  # frames move as the displacements say
-        losses = _show_sets(reader, with_sets=with_sets) if is_exodus else {}
+        losses: dict[str, None] = {}
+        if is_exodus:
+            losses = _show_sets(reader, with_sets=with_sets)
         if times:
             reader.UpdateTimeStep(times[step or 0])
         reader.Update()
@@ -102,14 +104,16 @@ def read_vtk(
         data = reader.GetOutputDataObject(0)
         words = _SAID.split(output.GetOutput())
         if "ERROR" in words or data is None:
-            reason = (
-                words[words.index("ERROR") + 1] if "ERROR" in words else "there is nothing in it"
-            )
+            reason = "there is nothing in it"
+            if "ERROR" in words:
+                reason = words[words.index("ERROR") + 1]
             raise FormatError(
                 f"VTK cannot read this file, or one that it names: {' '.join(reason.split())}"
             )
         losses |= dict.fromkeys(" ".join(text.split()) for text in words[2::2])
-        sets = _Sets(data, losses) if is_exodus else None
+        sets: _Sets | None = None
+        if is_exodus:
+            sets = _Sets(data, losses)
         leaves = [*_leaves(data, "")]
         surfaces = [_part(leaf, leaf_name, losses) for leaf, leaf_name in leaves]
         parts = [part for part in surfaces if part is not None]
@@ -172,7 +176,9 @@ class _Sets:
 
     def _add(self, kind: str, leaf: Any, name: str, losses: dict[str, None]) -> None:
         set_name = _UNNAMED.sub(rf"{kind} \1", name)
-        part = _part(leaf, name, {}) if kind == "side set" else None
+        part: Part | None = None
+        if kind == "side set":
+            part = _part(leaf, name, {})
         if len(self._faces) + len(self._points) >= _MOST_SETS:
             losses[f"the {kind} {set_name}"] = None
         elif kind == "node set":
@@ -399,7 +405,10 @@ def _inward(data: Any, cells: Ints, positions: Doubles, sizes: Ints, corners: In
 
 def _text(name: str | bytes) -> str:
     """A name, which VTK hands over as bytes where it is not UTF-8."""
-    return name.decode(errors="replace").split("\0")[0] if isinstance(name, bytes) else name
+    if isinstance(name, str):
+        return name
+    text, *_ = name.decode(errors="replace").split("\0")
+    return text
 
 
 def _count_hidden(data: Any) -> int:

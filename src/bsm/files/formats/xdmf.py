@@ -78,7 +78,10 @@ class _Grids:
         reference = element.get("Reference")
         if not reference:
             return
-        targets = self._find((element.text or "").strip() if reference == "XML" else reference)
+        path = reference
+        if reference == "XML":
+            path = (element.text or "").strip()
+        targets = self._find(path)
         if len(targets) != 1 or targets[0].get("Reference"):
             raise FormatError(f"the reference {reference[:80]} does not lead to one element")
         target = targets[0]
@@ -125,7 +128,9 @@ class _Grids:
             with about(name):
                 path = file_beside(self._folder, name.strip())
             values = self._in_hdf(path, place)
-        return values.reshape(shape) if shape else values
+        if shape:
+            values = values.reshape(shape)
+        return values
 
     def _in_hdf(self, path: Path, place: str) -> Any:
         h5py = imported("h5py", "XDMF is read with h5py", "simulation")
@@ -205,7 +210,9 @@ class _Grids:
             values = np.array([float(time.get("Value"))])
         else:
             values = np.asarray(self.numbers(time).ravel(), np.float64)
-        count = int(values[2]) if kind == "HyperSlab" else len(values)
+        count = len(values)
+        if kind == "HyperSlab":
+            count = int(values[2])
         if count != len(steps):
             raise FormatError(f"there are {count} times for {len(steps)} steps")
         if kind == "HyperSlab":
@@ -220,7 +227,9 @@ class _Grids:
         shapes = [self._shape(leaf) for leaf in every]
         places_by_key: dict[Any, list[int]] = {}
         for place, shape in enumerate(shapes):
-            key = _key_of(shape) if len(grids) > 1 else place
+            key: Any = place
+            if len(grids) > 1:
+                key = _key_of(shape)
             places_by_key.setdefault(key, []).append(place)
         surfaces: list[Polygons] = []
         names: list[str] = []
@@ -306,7 +315,9 @@ def _layouts() -> dict[str, str]:
     layouts: dict[str, str] = {}
     for number, words in _CELLS.items():
         for word in words.split():
-            name = word.rstrip("0123456789") if number < 10 else word
+            name = word
+            if number < 10:
+                name = word.rstrip("0123456789")
             layouts[name] = word
     return layouts
 
@@ -348,7 +359,9 @@ def _mixed(flat: Ints) -> list[tuple[str, Ints]]:
     blocks: list[tuple[str, Ints]] = []
     for table in runs(flat, shape):
         kind = int(table[0, 0])
-        first = 2 if kind in _COUNTED else 1
+        first = 1
+        if kind in _COUNTED:
+            first = 2
         blocks.append((_shape_of(_CELLS[kind].split()[0]), table[:, first:]))
     return blocks
 
