@@ -239,12 +239,18 @@ def _quality(name: str, array: Array, extent: float, texel: Callable[[str], floa
         # As many bits as a quarter of a texel of the largest image needs.
         steps = float(np.ptp(array, axis=0).max()) / (2 * _TEXELS * texel(base))
         bits = math.ceil(math.log2(max(steps, 1.0)))
-        return f"{max(bits, _COARSEST)}bits" if bits <= _FINEST else "exact"
+        if bits > _FINEST:
+            return "exact"
+        return f"{max(bits, _COARSEST)}bits"
     if name in _QUALITIES:
         return _QUALITIES[name]
     if target and base == "POSITION":
-        return repr(_GRID * extent) if extent > 0 else "exact"
-    return _TURN if target and base in ("NORMAL", "TANGENT") else None
+        if extent <= 0:
+            return "exact"
+        return repr(_GRID * extent)
+    if target and base in ("NORMAL", "TANGENT"):
+        return _TURN
+    return None
 
 
 def _texel(document: gltf.Document, bundle: Bundle, name: str) -> float:
@@ -280,7 +286,9 @@ def _carried(name: str, array: Array, normalized: bool) -> tuple[Attribute, int,
             return f"{name} has {array.shape[1]} numbers for each vertex, not {width}"
         return Attribute(name, array, "vertex", semantic), FLOAT, False
     if name == "COLOR_0":
-        in_range = array.min() >= 0 and array.max() <= 1 if is_float else array.dtype.kind == "u"
+        in_range = array.dtype.kind == "u"
+        if is_float:
+            in_range = array.min() >= 0 and array.max() <= 1
         if not in_range:
             return "COLOR_0 has numbers that are not between 0 and 1"
         return Attribute(name, array, "vertex", "color"), FLOAT, False
@@ -319,7 +327,9 @@ def code_bundle(
     requests = {
         name: quality for name, quality in options.get("attributes", {}).items() if name in names
     }
-    qualities = requests if "*" in requests else {**carried.qualities, **requests}
+    qualities = requests
+    if "*" not in requests:
+        qualities = {**carried.qualities, **requests}
     part_options = {"threads": 1, **options, "attributes": qualities}
     if not requests.keys() & {"*", "NORMAL"}:
         part_options["normals"] = "near"

@@ -59,11 +59,14 @@ def compress(
     bundles = bundles_of(document, scene.tree, reasons)
     users = users_of(bundles, scene.tree, scene.foreign_numbers)
     exact = options.get("preset") == "lossless"
-    quality_options = {**({"*": "exact"} if exact else {}), **options.get("attributes", {})}
+    quality_options: dict[str, Any] = {}
+    if exact:
+        quality_options["*"] = "exact"
+    quality_options |= options.get("attributes", {})
+    each: list[Mapping[str, Any]] = [options] * len(bundles)
     # Meshes that touch share borders. With grids of their own, rounding would open cracks between them.
-    each = (
-        _one_grid(document, scene.tree, bundles, options) if one_grid else [options] * len(bundles)
-    )
+    if one_grid:
+        each = [*_one_grid(document, scene.tree, bundles, options)]
     each = [{**grid_options, "attributes": quality_options} for grid_options in each]
     sizes, coded = [sum(map(len, bundle)) for bundle in bundles], list[BundleStream | str]()
     meshes = (as_mesh(document, bundle, exact=exact) for bundle in bundles)
@@ -101,15 +104,10 @@ def compress(
             reasons["a stream would not be smaller"] += primitives
     data = scene.finished(images)
     worst = (max(error for error, _ in errors), max(share for _, share in errors))
-    return Compressed(
-        data,
-        coded_primitives,
-        dict(reasons),
-        b"".join(scene.plain) if fallback else b"",
-        notes,
-        worst,
-        (*scene.images,),
-    )
+    plain = b""
+    if fallback:
+        plain = b"".join(scene.plain)
+    return Compressed(data, coded_primitives, dict(reasons), plain, notes, worst, (*scene.images,))
 
 
 @as_format_error("glTF")
@@ -132,7 +130,9 @@ def _one_grid(
     for node, matrix in places_of(document, parents_of(document)).items():
         entry = document.item("nodes", node)
         # A skin places vertices by joints and ignores the matrix of the node.
-        matrices.setdefault(entry.get("mesh"), np.eye(4) if "skin" in entry else matrix)
+        if "skin" in entry:
+            matrix = np.eye(4)
+        matrices.setdefault(entry.get("mesh"), matrix)
     meshes = {
         id(primitive): n
         for n, mesh in enumerate(tree["meshes"])
@@ -154,10 +154,9 @@ def _one_grid(
     for matrix, cell in zip(placed, map(cells.__getitem__, keys), strict=True):
         # Not solve, since a node may scale an axis to zero.
         moved = np.linalg.lstsq(matrix[:3, :3], matrix[:3, 3], rcond=None)[0]
-        origin = tuple((-moved % cell).tolist()) if cell else (0.0, 0.0, 0.0)
-        grid = {"grid_cell": cell, "grid_origin": origin} if cell else {"grid": 14}
-        bundle_options.append(
-            {name: value for name, value in options.items() if name not in ("preset", "grid")}
-            | grid
-        )
+        grid: dict[str, Any] = {"grid": 14}
+        if cell:
+            grid = {"grid_cell": cell, "grid_origin": tuple((-moved % cell).tolist())}
+        others = {name: value for name, value in options.items() if name not in ("preset", "grid")}
+        bundle_options.append(others | grid)
     return bundle_options

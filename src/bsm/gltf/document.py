@@ -307,7 +307,9 @@ class Document:
             try:
                 self.file(uri)
             except FormatError as error:
-                return "it lies at an address" if is_url(uri) else str(error)
+                if is_url(uri):
+                    return "it lies at an address"
+                return str(error)
         return ""
 
     def image(self, index: object) -> tuple[str, bytes | None]:
@@ -366,8 +368,10 @@ class Document:
 
     def _resource(self, uri: str) -> bytes:
         """The bytes of a data URI, or of a file beside the document."""
-        if uri not in self._resources:
-            self._resources[uri] = _data_of(uri) if uri.startswith("data:") else self._read(uri)
+        if uri not in self._resources and uri.startswith("data:"):
+            self._resources[uri] = _data_of(uri)
+        elif uri not in self._resources:
+            self._resources[uri] = self._read(uri)
         return self._resources[uri]
 
     def _read(self, uri: str) -> bytes:
@@ -418,13 +422,20 @@ def _said(value: Any, kind: str, path: str, owner: str) -> Iterator[Said]:
     if inside.isdecimal() and len(value) != int(inside):
         raise FormatError(f"in this glTF, {path[1:]} must have {inside} values, not {len(value)}")
     if kind[0] == "[":
-        kind_of_items = "#" if inside.isdecimal() else inside or "{}"
+        kind_of_items = inside or "{}"
+        if inside.isdecimal():
+            kind_of_items = "#"
         for place, item in enumerate(value):
             yield from _said(item, kind_of_items, f"{path}[{place}]", owner)
     elif kind[0] == "{":
-        kind_of_others = "{}" if owner == "extensions" else ""
+        kind_of_others = ""
+        if owner == "extensions":
+            kind_of_others = "{}"
         for name, item in value.items():
-            yield owner, name, "" if isinstance(item, dict | list) else item
+            if isinstance(item, dict | list):
+                yield owner, name, ""
+            else:
+                yield owner, name, item
             kind_of_item = _SHAPE.get(owner, {}).get(name, inside or kind_of_others)
             if kind_of_item:
                 yield from _said(item, kind_of_item, f"{path}.{name}", name)
@@ -470,7 +481,9 @@ class Growing:
     def accessor(
         self, component: int, count: int, width: int, view: int | None = None, **more: Any
     ) -> int:
-        entry: Tree = {} if view is None else {"bufferView": view}
+        entry: Tree = {}
+        if view is not None:
+            entry["bufferView"] = view
         entry |= {"componentType": component, "count": count, "type": _TYPES[width]}
         return self.add("accessors", entry | more)
 
@@ -492,7 +505,9 @@ class Growing:
         return self.add("bufferViews", place | more)
 
     def use(self, extension: str, *, required: bool) -> None:
-        keys = ["extensionsUsed", "extensionsRequired"] if required else ["extensionsUsed"]
+        keys = ["extensionsUsed"]
+        if required:
+            keys.append("extensionsRequired")
         for key in keys:
             names = self.tree.setdefault(key, [])
             if extension not in names:
@@ -556,9 +571,9 @@ def triangles_of(document: Document, primitive: Tree, count: int) -> npt.NDArray
     indices: npt.NDArray[np.int64] = np.arange(count)
     if "indices" in primitive:
         indices = document.numbers(primitive["indices"])[:, 0].astype(np.int64)
-    mode = (
-        TRIANGLES if DRACO in primitive.get("extensions", {}) else primitive.get("mode", TRIANGLES)
-    )
+    mode = primitive.get("mode", TRIANGLES)
+    if DRACO in primitive.get("extensions", {}):
+        mode = TRIANGLES
     if mode == TRIANGLES:
         triangles = indices[: len(indices) // 3 * 3].reshape(-1, 3)
     else:

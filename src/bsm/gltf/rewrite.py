@@ -180,7 +180,9 @@ class Rewritten(gltf.Growing):
         for name, array in coded.shape.arrays.items():
             component, normalized = coded.accessors[name]
             view = self._view(stream, name, stored(name, array, component), component)
-            more: Tree = {"normalized": True} if normalized else {}
+            more: Tree = {}
+            if normalized:
+                more["normalized"] = True
             if name.rpartition("/")[2] == "POSITION":
                 more |= gltf.bounds_of(array)
             more |= _words(entries[accessors[name]])
@@ -189,7 +191,9 @@ class Rewritten(gltf.Growing):
         corners = stored("indices", coded.shape.index, component)
         view = self._view(stream, "indices", corners, component)
         for primitives, (start, count) in zip(bundle, coded.shape.pieces, strict=True):
-            more = {"byteOffset": start * corners.itemsize} if start else {}
+            more = {}
+            if start:
+                more["byteOffset"] = start * corners.itemsize
             if "indices" in primitives[0]:
                 more |= _words(entries[primitives[0]["indices"]])
             indices = self._accessor(component, count, 1, view, more)
@@ -241,12 +245,12 @@ class Rewritten(gltf.Growing):
             if not data:
                 continue
             kind = image.get("mimeType") or gltf.mime_of(data)
-            # An image that its rule makes larger stays as it is.
-            smaller_data = smaller(data, rule) if rule else None
+            smaller_data: bytes | None = None
             if rule:
-                self.images.append(
-                    compare_image(name or f"image {number}", data, smaller_data or data)
-                )
+                # An image that its rule makes larger stays as it is.
+                smaller_data = smaller(data, rule)
+                image_name = name or f"image {number}"
+                self.images.append(compare_image(image_name, data, smaller_data or data))
             if rule and smaller_data:
                 kind = f"image/{rule.kind}"
             if kind and (smaller_data or "uri" in image):
@@ -365,7 +369,10 @@ class Rewritten(gltf.Growing):
         free = iter(sorted(every - fixed))
         numbers: dict[int, int] = {}
         for old in sorted(kept_numbers):
-            numbers[old] = old if old in fixed else next(free)
+            if old in fixed:
+                numbers[old] = old
+            else:
+                numbers[old] = next(free)
         for holder, key in places:
             holder[key] = numbers[holder[key]]
         self.tree[kind] = [dict(blank) for _ in range(max(numbers.values(), default=-1) + 1)]
@@ -380,10 +387,12 @@ def _words(accessor: Tree) -> Tree:
 def _short(node: Any) -> Any:
     """Return JSON with numbers as short as single precision allows; extras and extensions stay as they are."""
     if isinstance(node, dict):
-        return {
-            key: value if key in ("extras", "extensions") else _short(value)
-            for key, value in node.items()
-        }
+        shortened: Tree = {}
+        for key, value in node.items():
+            shortened[key] = value
+            if key not in ("extras", "extensions"):
+                shortened[key] = _short(value)
+        return shortened
     if isinstance(node, list):
         return [_short(value) for value in node]
     if not isinstance(node, float) or abs(node) > _MOST or np.float32(node) != node:

@@ -11,6 +11,7 @@ import numpy as np
 
 from bsm.bitstream.errors import FormatError, LimitError, OptionError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
+from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.welding import first_of, group_rows
 from bsm.files import conventions, table
@@ -69,7 +70,9 @@ class Keyframes:
     def at(self, time: float) -> Doubles:
         """Return the value at a time, shape (c,); before the first key and after the last, that of the key."""
         # Times are single precision in files and double here: a key may lie a little after its frame.
-        tolerance = 1e-5 if self.interpolation == "STEP" else 0.0
+        tolerance = 0.0
+        if self.interpolation == "STEP":
+            tolerance = 1e-5
         following = int(np.searchsorted(self.times, time + tolerance, side="right"))
         before = max(following - 1, 0)
         after = min(following, len(self.times) - 1)
@@ -108,7 +111,9 @@ class Keyframes:
 
 def values_per_key(interpolation: str) -> int:
     """Return how many values a curve has for each key: splines have two tangents, too."""
-    return 3 if interpolation == "CUBICSPLINE" else 1
+    if interpolation == "CUBICSPLINE":
+        return 3
+    return 1
 
 
 def _between_rotations(earlier: Doubles, later: Doubles, share: float) -> Doubles:
@@ -116,7 +121,9 @@ def _between_rotations(earlier: Doubles, later: Doubles, share: float) -> Double
     cosine = float(earlier @ later)
     # Nearly equal quaternions are mixed linearly: the arc between them divides by a sine that is almost zero.
     if abs(cosine) > 1 - 1e-9:
-        nearer = -later if cosine < 0 else later
+        nearer = later
+        if cosine < 0:
+            nearer = -later
         return earlier + share * (nearer - earlier)
     angle = float(np.arccos(abs(cosine)))
     arc: Doubles = (
@@ -188,7 +195,9 @@ def places_of(
         # glTF forbids to animate a node that has a matrix. Files that do it mean the properties.
         if "matrix" in tree and not animated:
             local = np.asarray(tree["matrix"], np.float64).reshape(4, 4).T
-        places[node] = places[parent] @ local if parent >= 0 else local
+        places[node] = local
+        if parent >= 0:
+            places[node] = places[parent] @ local
     return places
 
 
@@ -257,7 +266,12 @@ class Primitive:
 
 def _turn_columns(columns: tuple[polygons.Column, ...], order: Ints) -> tuple[polygons.Column, ...]:
     """Return columns whose corners are in another order."""
-    return tuple(c if c.indices is None else replace(c, indices=c.indices[order]) for c in columns)
+    turned: list[polygons.Column] = []
+    for column in columns:
+        if column.indices is not None:
+            column = replace(column, indices=column.indices[order])
+        turned.append(column)
+    return tuple(turned)
 
 
 class Scene:
@@ -639,7 +653,9 @@ class Scene:
 
         def place(name: str) -> tuple[int, str]:
             kind = name.partition("_")[0]
-            return kinds.index(kind), name if kind else ""
+            if not kind:
+                return kinds.index(kind), ""
+            return kinds.index(kind), name
 
         for name in sorted(accessors, key=place):
             if not name.startswith(("TEXCOORD_", "COLOR_", "_")):
@@ -648,7 +664,9 @@ class Scene:
             values: Any = self._document.numbers(accessors[name], unscaled=kind == "COLOR")
             if len(values) != count or values.shape[1] > 4:
                 raise FormatError(f"{name} has {values.shape} numbers for {count} vertices")
-            suffix = "" if number == "0" else number
+            suffix = number
+            if number == "0":
+                suffix = ""
             if kind == "COLOR":
                 columns.append(_color_column(values, f"color{suffix}", self.notes))
             elif kind == "TEXCOORD":
@@ -710,13 +728,16 @@ def _unread(document: Document, *, at_rest: bool) -> tuple[str, ...]:
         notes.append("skins")
     if at_rest and any(primitive.get("targets") for primitive in document.primitives()):
         notes.append("morph targets")
-    skin_names = ("JOINTS_", "WEIGHTS_") if tree.get("skins") else ()
+    skin_names: tuple[str, ...] = ()
+    if tree.get("skins"):
+        skin_names = ("JOINTS_", "WEIGHTS_")
     notes += [name for name in document.unread if not name.startswith(skin_names)]
     nodes_placed = parents_of(document)
     if any("mesh" in node for number, node in enumerate(nodes) if number not in nodes_placed):
-        notes.append(
-            "other scenes" if len(document.items("scenes")) > 1 else "nodes outside of the scene"
-        )
+        if len(document.items("scenes")) > 1:
+            notes.append("other scenes")
+        else:
+            notes.append("nodes outside of the scene")
     for name, value in _all_extras(document):
         if not isinstance(value, str | int | float):
             notes.append(f"extras ({name})")
@@ -786,12 +807,11 @@ def read_gltf(path: str, request: Wanted, limits: Limits = DEFAULT_LIMITS) -> Fr
 def _painted(scene: Scene, mesh: TriangleMesh, time: float) -> TriangleMesh:
     """Return the mesh at a time, with its colors then."""
     colors = _color_column(scene.colors(time), "color", []).values
-    attributes = [
-        replace(attribute, values=colors)
-        if (attribute.name, attribute.domain) == ("color", "vertex")
-        else attribute
-        for attribute in mesh.attributes
-    ]
+    attributes: list[Attribute] = []
+    for attribute in mesh.attributes:
+        if (attribute.name, attribute.domain) == ("color", "vertex"):
+            attribute = replace(attribute, values=colors)
+        attributes.append(attribute)
     return replace(mesh, positions=scene.at(time), attributes=tuple(attributes))
 
 
@@ -807,12 +827,10 @@ def _choose_animation(document: Document, choice: str) -> tuple[int, Tree]:
         number = names.index(choice)
         return number, animations[number]
     if choice and not choice.isdecimal():
+        there_are = f"there are {len(names)} without names, 0 is the first"
         quoted = ", ".join(map(repr, filter(None, names)))
-        there_are = (
-            f"the names are {quoted}"
-            if quoted
-            else f"there are {len(names)} without names, 0 is the first"
-        )
+        if quoted:
+            there_are = f"the names are {quoted}"
         raise OptionError(f"no animation {choice!r}; {there_are}")
     number = int(choice or 0)
     if number >= len(animations):
@@ -920,7 +938,9 @@ class _Materials:
         """Return materials by place; what glTF draws opaque says so, where some colors are transparent."""
         words: dict[int, Material] = {}
         for place, index in enumerate(materials):
-            tree = self._document.item("materials", index) if index >= 0 else {}
+            tree: Tree = {}
+            if index >= 0:
+                tree = self._document.item("materials", index)
             words[place] = self._words(tree, transparent)
             # The default of glTF is metal, which most other formats do not have. Said here, it survives: others take a
             # material that says nothing for matte.
@@ -946,7 +966,9 @@ class _Materials:
             elif isinstance(value, str | int | float):
                 words[name] = value
             elif isinstance(value, list) and all(isinstance(item, int | float) for item in value):
-                factor = strength if name == "emissiveFactor" else 1
+                factor = 1
+                if name == "emissiveFactor":
+                    factor = strength
                 words[name] = " ".join(f"{item * factor:.6g}" for item in value)
         return words
 

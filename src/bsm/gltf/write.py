@@ -110,10 +110,10 @@ class _Scene(Growing):
             formats.face_numbers(split, "material"),
             formats.face_numbers(split, "part"),
         )
-        sorting = [
-            np.zeros(len(split.faces), np.int64) if a is None else a.values
-            for a in (part, material)
-        ]
+        sorting: list[Array] = []
+        for numbers in (part, material):
+            values = np.zeros(len(split.faces), np.int64) if numbers is None else numbers.values
+            sorting.append(values)
         # A primitive has one material and a node one name, so faces are sorted by both.
         kinds, kind_of_face = np.unique(np.column_stack(sorting), axis=0, return_inverse=True)
         arrays, vertex_attributes = _at_vertices(split)
@@ -140,8 +140,10 @@ class _Scene(Growing):
             primitive: Tree = {"attributes": accessors}
             primitive["indices"] = self.numbers(corners.reshape(-1, 1).astype(np.uint32))
             primitive["material"] = materials[material_number]
-            mesh_name = mesh.metadata.get("name") if len(kinds) == 1 else None
-            node_name = _unused_name(str(names.get(part_number) or mesh_name or stem), node_names)
+            name_of_part: object = names.get(part_number)
+            if not name_of_part and len(kinds) == 1:
+                name_of_part = mesh.metadata.get("name")
+            node_name = _unused_name(str(name_of_part or stem), node_names)
             node_names.add(node_name)
             self.place({"name": node_name, "primitives": [primitive]}, name=node_name, **node)
             self.primitives.append((primitive, vertex_origins[vertices]))
@@ -204,7 +206,9 @@ class _Scene(Growing):
             extensions[UNLIT] = {}
         for name, value in gltf_words.items():
             if isinstance(value, Texture):
-                texture = value if value.set < self._sets else replace(value, set=0)
+                texture = value
+                if texture.set >= self._sets:
+                    texture = replace(texture, set=0)
                 info, sampler = words_of(texture)
                 index = self._texture(*images.get(value.image, ("", b"")), sampler)
                 if index is None:
@@ -235,7 +239,9 @@ class _Scene(Growing):
             if isinstance(value, Texture) and value.set >= self._sets:
                 fields.discard(f"{name}.set")
         written |= {f"material.{number}.{name}" for name in words.keys() - {*lost(words, fields)}}
-        return self.add("materials", material) if material else None
+        if not material:
+            return None
+        return self.add("materials", material)
 
     def _texture(self, name: str, data: bytes, sampler: Tree) -> int | None:
         kind = mime_of(data)
@@ -402,11 +408,10 @@ class _Moving(_Scene):
 
     def _painted(self, mesh: TriangleMesh) -> list[Array]:
         self.painted = formats.shown_at_vertices(mesh)[1]
-        return (
-            []
-            if self.painted is None
-            else [conventions.to_linear(conventions.shares_of(self.painted.values))]
-        )
+        if self.painted is None:
+            return []
+        shares = conventions.shares_of(self.painted.values)
+        return [conventions.to_linear(shares)]
 
     def add_frame(self, mesh: TriangleMesh) -> None:
         run = self._runs[-1]
@@ -523,8 +528,11 @@ def moving_scene(stream: bytes) -> bytes:
     places: dict[str, int] = {}
     largest = 0
     for name, (component, width) in kinds.items():
-        count = len(shape.index if name == "indices" else shape.arrays["POSITION"])
-        largest = max(largest, size := 4 * width * count)
+        count = len(shape.arrays["POSITION"])
+        if name == "indices":
+            count = len(shape.index)
+        size = 4 * width * count
+        largest = max(largest, size)
         view: Tree = {
             "buffer": 1,
             "byteLength": size,
@@ -535,7 +543,9 @@ def moving_scene(stream: bytes) -> bytes:
     # Filled by decoders from the stream, frame after frame, so it is as large as the largest array only.
     scene.add("buffers", {"byteLength": largest, "extensions": {EXTENSION: {"fallback": True}}})
     metadata: Metadata = sequence.metadata
-    node = {"name": str(metadata["name"])} if "name" in metadata else {}
+    node: dict[str, str] = {}
+    if "name" in metadata:
+        node["name"] = str(metadata["name"])
     primitive = {"indices": places.pop("indices"), "attributes": places}
     mesh = {"primitives": [primitive], "extensions": {EXTENSION: {"stream": source}}}
     scene.place(mesh, **node, **placed_node(metadata)[0])
