@@ -44,7 +44,10 @@ def read_cache(path: str, kind: str, request: Wanted, limits: Limits) -> Frames:
     """The frames of a cache, each read when it is asked for, and the faces of the mesh that it moves."""
     size = os.path.getsize(path)
     with open(path, "rb") as file:
-        cache = _head_of_pc2(file) if kind == "pc2" else _head_of_mdd(file, size, request.rate)
+        if kind == "pc2":
+            cache = _head_of_pc2(file)
+        else:
+            cache = _head_of_mdd(file, size, request.rate)
     what = f"the {kind.upper()} file claims {cache.frames} frames of {cache.points} points"
     if cache.frames < 1 or cache.points < 1:
         raise FormatError(what)
@@ -138,10 +141,14 @@ def write_cache(
     rate: float = 0.0,
 ) -> None:
     """Write a cache of frames with these time codes, at a frame rate."""
-    single, count = "<f4" if kind == "pc2" else ">f4", len(codes)
+    single, count = ">f4", len(codes)
+    if kind == "pc2":
+        single = "<f4"
     for number, frame in enumerate(frames):
         if number == 0 and kind == "pc2":
-            step = codes[1] - codes[0] if count > 1 else 1.0
+            step = 1.0
+            if count > 1:
+                step = codes[1] - codes[0]
             file.write(_PC2.pack(_SIGNATURE, 1, len(frame), codes[0], step, count))
         elif number == 0:
             times = np.array(codes) / (rate or USUAL_RATE)

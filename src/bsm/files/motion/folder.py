@@ -61,8 +61,10 @@ def mesh_files(path: str) -> list[str]:
     """The mesh files of a folder or pattern, in any order."""
     if Path(path).is_dir():
         names = [os.path.join(path, name) for name in os.listdir(path)]
+    elif is_numbered(path):
+        names = glob.glob(_PLACE.sub("*", path))
     else:
-        names = glob.glob(_PLACE.sub("*", path) if is_numbered(path) else path)
+        names = glob.glob(path)
     read = (name for name in names if Path(name).suffix.lower() in MESH_SUFFIXES)
     return [name for name in read if not os.path.basename(name).startswith(".")]
 
@@ -148,9 +150,10 @@ def _varying_place(rows: Sequence[Sequence[str]]) -> int | None:
 def times_in(names: Sequence[str]) -> list[float]:
     """Times in seconds that folders are called, or numbers with an exponent or below zero in names; or nothing."""
     around, words = _varying(_stems(names))
-    is_folder = around in (f"#{os.sep}", f"{os.sep}#{os.sep}")
-    pattern = re.compile(r"[.]|e[-+]" if is_folder else r"^-.*[.]|e[-+]", re.I)
-    if not any(map(pattern.search, words)):
+    pattern = r"^-.*[.]|e[-+]"
+    if around in (f"#{os.sep}", f"{os.sep}#{os.sep}"):  # of a folder
+        pattern = r"[.]|e[-+]"
+    if not any(re.search(pattern, word, re.I) for word in words):
         return []
     return [*map(float, words)]
 
@@ -265,15 +268,18 @@ def common_name(names: Sequence[str]) -> str:
 
 
 def _natural(name: str) -> list[str | int]:
-    parts = _NUMBERS.split(name)
-    return [int(part) if place % 2 else part for place, part in enumerate(parts)]
+    parts: list[str | int] = [*_NUMBERS.split(name)]
+    parts[1::2] = map(int, parts[1::2])
+    return parts
 
 
 def _numbers(ordered: Sequence[str]) -> list[int]:
     """The number that counts the files; none, if there is none that alone tells them apart."""
     rows = [_NUMBERS.split(name) for name in _differing(ordered)]
     place = _varying_place(rows)
-    return [] if place is None else [int(row[place]) for row in rows]
+    if place is None:
+        return []
+    return [int(row[place]) for row in rows]
 
 
 def read_files(
@@ -303,8 +309,10 @@ def read_files(
     times = times or times_in(names)
     rate_of_names = rate_of_times(np.array(times, np.float64))
     if rate and times and rate_of_names != rate:
-        replaced_rate = f"; theirs is {rate_of_names:g}" if rate_of_names > 0 else ""
-        notes.append(f"the times of frames are replaced by the frame rate {rate:g}{replaced_rate}")
+        note = f"the times of frames are replaced by the frame rate {rate:g}"
+        if rate_of_names > 0:
+            note += f"; theirs is {rate_of_names:g}"
+        notes.append(note)
     timing: Mapping[str, float | str] | None = _numbering(names)
     if times:
         rate, timing = timing_of(np.array(times, np.float64), rate)
@@ -312,12 +320,16 @@ def read_files(
         notes.append("the times of frames are not numbers that grow, and are left out")
     # An attribute that moves differs most between the first and the last frame; looking at all frames would read the
     # folder twice.
-    last = read(count - 1) if first.attributes and not runs else first
+    last = first
+    if first.attributes and not runs:
+        last = read(count - 1)
     attributes = _attributes_in_all(first, last, notes)
     still = [attribute.name for attribute in attributes if not can_move(attribute)]
     if count > 1 and still:
-        of_runs = "of each run " if runs else ""
-        notes.append(f"{', '.join(still)}: as the first frame {of_runs}has them")
+        first_in_words = "the first frame"
+        if runs:
+            first_in_words = "the first frame of each run"
+        notes.append(f"{', '.join(still)}: as {first_in_words} has them")
     changes = (
         runs
         or len(still) < len(attributes)
@@ -325,7 +337,10 @@ def read_files(
     )
 
     def meshes() -> Iterator[TriangleMesh]:
-        yield first if runs else replace(first, attributes=attributes)
+        if runs:
+            yield first
+        else:
+            yield replace(first, attributes=attributes)
         for number in range(1, count):
             mesh = read(number)
             if not runs:
@@ -336,7 +351,10 @@ def read_files(
 
     positions = (mesh.positions for mesh in meshes())
     shared = attributes, tuple(notes), rate, {**metadata, **(timing or {})}
-    return Frames(first.faces, count, positions, *shared, meshes() if changes else None)
+    moving: Iterator[TriangleMesh] | None = None
+    if changes:
+        moving = meshes()
+    return Frames(first.faces, count, positions, *shared, moving)
 
 
 def _attributes_in_all(
@@ -442,7 +460,9 @@ def listed(path: str, kind: str, limits: Limits) -> tuple[list[str], list[float]
             f"this is not a .{kind} file of ParaView: {type(error).__name__}: {error}"
         ) from error
     counts = Counter(time for time, _ in sorted(rows, key=lambda row: row[0]))
-    different = len(counts) if kind == "series" else len(set(rows))
+    different = len(set(rows))
+    if kind == "series":
+        different = len(counts)
     if not rows or different < len(rows):
         raise MeshError("the list names no file, or two for one time that are not its parts")
     names: list[str] = []
@@ -470,7 +490,9 @@ def _as_in(mesh: TriangleMesh, attribute: Attribute) -> Attribute | None:
     """An attribute of the first frame as a later one has it; None where it differs and cannot move."""
     if can_move(attribute):
         return moved_to(attribute, mesh.attributes)
-    return attribute if attribute.semantic != "normal" and has(mesh.attributes, attribute) else None
+    if attribute.semantic == "normal" or not has(mesh.attributes, attribute):
+        return None
+    return attribute
 
 
 # --------------------------------------------------------------------------------------------------------- the way back
@@ -494,7 +516,9 @@ def write_files(
     path: str, kind: str, *, overwrite: bool
 ) -> Iterator[Callable[[TriangleMesh, int], tuple[str, ...]]]:
     """A file for each frame: in a folder, or called by a pattern; files that were written are removed after an error"""
-    pattern = Path(path) if is_numbered(path) else Path(path, f"%05d.{kind}")
+    pattern = Path(path)
+    if not is_numbered(path):
+        pattern = Path(path, f"%05d.{kind}")
     if not is_numbered(pattern.name):
         raise OptionError(f"{path}: write one %d or %04d for the number of the frame")
     new = not pattern.parent.exists()
@@ -505,8 +529,11 @@ def write_files(
 
     def write(mesh: TriangleMesh, number: int) -> tuple[str, ...]:
         target = pattern.parent / _PLACE.sub(partial(_number_at, number), pattern.name)
-        nothing = FORMATS[kind].empty if is_empty(mesh.attributes) else None
-        file = written_mesh(mesh, kind, target) if nothing is None else Written(nothing)
+        contents_of_nothing = FORMATS[kind].empty
+        if is_empty(mesh.attributes) and contents_of_nothing is not None:
+            file = Written(contents_of_nothing)
+        else:
+            file = written_mesh(mesh, kind, target)
         # Only files that are new are removed after an error: a frame of before, half overwritten or not, is the user's.
         was_there = target.exists()
         if not was_there:

@@ -213,7 +213,10 @@ def timing_of(times: Positions, rate: float = 0.0) -> tuple[float, dict[str, flo
     if np.abs(even - times).max() > tolerance:
         return own_rate, {TIMES: " ".join(f"{time:.9g}" for time in times.tolist())}
     start = round(float(times[0]) * (rate or own_rate or USUAL_RATE), 6)
-    return rate or own_rate, {START: start} if start else {}
+    metadata: dict[str, float | str] = {}
+    if start:
+        metadata[START] = start
+    return rate or own_rate, metadata
 
 
 def between(name: str, codes: Positions, rate: float) -> list[str]:
@@ -224,8 +227,10 @@ def between(name: str, codes: Positions, rate: float) -> list[str]:
         counts.append(int((distances > 0.02).sum()))
     if not counts[0]:
         return []
-    finer = f"; --frame-rate {rate * (1 + counts.index(0)):g} reads them" if 0 in counts else ""
-    return [f"{counts[0]} of {len(codes)} {name} lie between the frames and are not read{finer}"]
+    note = f"{counts[0]} of {len(codes)} {name} lie between the frames and are not read"
+    if 0 in counts:
+        note += f"; --frame-rate {rate * (1 + counts.index(0)):g} reads them"
+    return [note]
 
 
 def rate_of_times(times: Positions) -> float:
@@ -239,14 +244,18 @@ def rate_of_times(times: Positions) -> float:
     rate = 1.0 / step
     whole_rate = float(round(rate))
     # 23.976 stays as it is, while 29.9999 from rounded times becomes 30.
-    return whole_rate if abs(rate - whole_rate) < 1e-3 * rate else rate
+    if abs(rate - whole_rate) < 1e-3 * rate:
+        return whole_rate
+    return rate
 
 
 @lru_cache(1)
 def _times_in(text: str) -> list[float]:
     """Times in seconds; none unless they are numbers that grow."""
     times = as_numbers(text)
-    return times if all(map(lt, times, times[1:])) else []
+    if not all(map(lt, times, times[1:])):
+        return []
+    return times
 
 
 def _finite(value: object, usual: float) -> float:

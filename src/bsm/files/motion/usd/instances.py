@@ -37,7 +37,9 @@ class Instancer:
         self.inner: list[str] = []
         """The paths of instancers in the prototypes."""
         for root in self._roots:
-            prims = list(pxr.Usd.PrimRange.AllPrims(root)) if root else []
+            prims: list[Any] = []
+            if root:
+                prims = list(pxr.Usd.PrimRange.AllPrims(root))
             self._meshes.append([below for below in prims if below.IsA(pxr.UsdGeom.Mesh)])
             self.inner += [
                 str(below.GetPath()) for below in prims if below.IsA(pxr.UsdGeom.PointInstancer)

@@ -141,7 +141,9 @@ class Materials:
 
     def _number(self, prim: Any, double_sided: bool) -> int:
         material = self._bound_material(prim)
-        words = self._words(material) if material else {}
+        words: Material = {}
+        if material:
+            words = self._words(material)
         if double_sided:
             words["doubleSided"] = 1
         return self._numbers.setdefault(tuple(words.items()), len(self._numbers))
@@ -182,20 +184,26 @@ class Materials:
         kind, number_field, texture_field = surface_input
         is_color = kind == "Color3f"
         fields: dict[str, Any] = {}
-        value = _value(surface, name, 3 if is_color else 1) or DEFAULTS.get(name)
-        texture = self._source(surface, name) if texture_field else None
+        width, usual_space = 1, "raw"
+        if is_color:
+            width, usual_space = 3, "sRGB"
+        value = _value(surface, name, width) or DEFAULTS.get(name)
+        texture: Any = None
+        if texture_field:
+            texture = self._source(surface, name)
         if texture and texture_field:
             image_path = self._image_path(texture)
             if image_path is not None:
                 number = self._images.setdefault(image_path, len(self._images))
                 fields[texture_field] = self._texture(texture, number)
             color_space = texture.GetInput("sourceColorSpace")
-            usual_space = "sRGB" if is_color else "raw"
             if color_space and color_space.Get() not in ("auto", usual_space):
                 self._unsupported.add(f"sourceColorSpace of {TEXTURE}")
             value = (_value(texture, "scale", 4) or [1.0] * 4)[:3]
         if number_field and value:
-            fields[number_field] = tuple(value) if is_color else value[0]
+            fields[number_field] = value[0]
+            if is_color:
+                fields[number_field] = tuple(value)
         return fields
 
     def _image_path(self, texture: Any) -> str | None:
@@ -218,8 +226,10 @@ class Materials:
         wrapping: list[str] = []
         for side in SIDES:
             side_input = texture.GetInput(side)
-            way = side_input.Get() if side_input else ""
-            wrapping.append(way if way in WAYS else "repeat")
+            way = "repeat"
+            if side_input and side_input.Get() in WAYS:
+                way = side_input.Get()
+            wrapping.append(way)
         fields: dict[str, Any] = {"wrap": tuple(wrapping)}
         transform = self._source(texture, "st", TRANSFORM)
         if transform:
@@ -248,8 +258,12 @@ class Materials:
 def _produced_value(shader: Any, name: str) -> Any:
     """Return the value that an input has or is connected to, or None."""
     shader_input = shader.GetInput(name)
-    attributes = shader_input.GetValueProducingAttributes() if shader_input else []
-    return attributes[0].Get() if attributes else None
+    if not shader_input:
+        return None
+    attributes = shader_input.GetValueProducingAttributes()
+    if not attributes:
+        return None
+    return attributes[0].Get()
 
 
 def _value(shader: Any, name: str, width: int) -> list[float] | None:

@@ -87,7 +87,9 @@ class StageMesh:
         ):
             return [*columns.values()]
         shades = np.hstack([shares_of(_rows(color)[:, :3]), _rows(opacity)])
-        indices = None if color.indices is None else np.arange(len(shades))
+        indices: Ints | None = None
+        if color.indices is not None:
+            indices = np.arange(len(shades))
         columns[color.name] = replace(color, values=srgb_colors(to_linear(shades)), indices=indices)
         del columns[opacity.name]
         return [*columns.values()]
@@ -155,7 +157,9 @@ class StageMesh:
         assert self._instance is not None
         name, kind = str(primvar.GetPrimvarName()), str(primvar.GetTypeName())
         value = primvar.ComputeFlattened(self.time)
-        values = np.array([] if value is None else value)
+        if value is None:
+            value = []
+        values = np.array(value)
         number = self._instance.number
         if values.ndim and len(values) == self._instance.instancer.count(self.time):
             values = values[number : number + 1]
@@ -166,7 +170,9 @@ class StageMesh:
             or not 1 <= values.size <= MOST_COMPONENTS
         ):
             return None
-        domain: Domain = "vertex" if name in _SHADES else "face"
+        domain: Domain = "face"
+        if name in _SHADES:
+            domain = "vertex"
         attribute_name, values, semantic = _interpret(name, kind, values)
         return Column(
             attribute_name, np.repeat(values, self.rows[domain], axis=0), domain, semantic
@@ -178,8 +184,9 @@ def source_paths(pxr: Any, prim: Any) -> tuple[str, ...]:
     owners = [prim, *(primvar.GetAttr().GetPrim() for primvar in authored_primvars(pxr, prim))]
     paths: list[str] = []
     for owner in owners:
-        source = owner.GetPrimInPrototype() if owner.IsInstanceProxy() else owner
-        paths.append(str(source.GetPath()))
+        if owner.IsInstanceProxy():
+            owner = owner.GetPrimInPrototype()
+        paths.append(str(owner.GetPath()))
     return tuple(paths)
 
 

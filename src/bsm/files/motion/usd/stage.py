@@ -185,7 +185,9 @@ class Stage:
         placed_part = polygons.Part(
             points, shape.counts, shape.corners[order], columns, materials, name
         )
-        return placed_part.without(shape.holes) if len(shape.holes) else placed_part
+        if len(shape.holes):
+            placed_part = placed_part.without(shape.holes)
+        return placed_part
 
 
 class _FaceSets:

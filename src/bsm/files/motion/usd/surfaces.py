@@ -193,7 +193,9 @@ class _Surface:
         for side, way in zip(SIDES, texture.wrap):
             shader.CreateInput(side, types.Token).Set(way)
         if isinstance(factor, tuple):
-            opacity = self._look.opacity if has_opacity else 1.0
+            opacity = 1.0
+            if has_opacity:
+                opacity = self._look.opacity
             scale = (*factor, opacity)
             if scale != (1.0,) * 4:
                 shader.CreateInput("scale", types.Float4).Set(vector(*scale))
@@ -205,7 +207,10 @@ class _Surface:
         if name in ("normal", "occlusion"):
             shader.CreateInput("sourceColorSpace", types.Token).Set("raw")
         surface_input = self._shader.CreateInput(name, getattr(types, kind))
-        surface_input.ConnectToSource(shader.ConnectableAPI(), "r" if kind == "Float" else "rgb")
+        channels = "rgb"
+        if kind == "Float":
+            channels = "r"
+        surface_input.ConnectToSource(shader.ConnectableAPI(), channels)
         if has_opacity:
             opacity_input = self._shader.CreateInput("opacity", types.Float)
             opacity_input.ConnectToSource(shader.ConnectableAPI(), "a")

@@ -114,7 +114,9 @@ class Traversal:
             if times:
                 self.blinking.append(str(prim.GetPath()))
             return ""
-        return "they appear later (--runs)" if times and not self._runs else "hidden"
+        if times and not self._runs:
+            return "they appear later (--runs)"
+        return "hidden"
 
     @cached_property
     def _has_render_meshes(self) -> bool:

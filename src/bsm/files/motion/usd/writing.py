@@ -45,7 +45,9 @@ class _StageWriter:
         self._pxr = import_usd()
         self._folder = folder
         self._packed = kind == "usdz"
-        self._path = folder / ("mesh.usdc" if self._packed else f"mesh.{kind}")
+        self._path = folder / f"mesh.{kind}"
+        if self._packed:
+            self._path = folder / "mesh.usdc"
         self._stage = self._pxr.Usd.Stage.CreateNew(str(self._path))
         self._faces = faces
         self._shared = shared
@@ -117,7 +119,9 @@ class _StageWriter:
         mesh.CreateExtentAttr()
         if str(metadata.get("up")).lower() == "x":  # which stages cannot have
             mesh.AddRotateZOp().Set(90.0)
-        image_folder = self._folder if self._packed else None
+        image_folder: Path | None = None
+        if self._packed:
+            image_folder = self._folder
         self._materials, written = write_materials(pxr, mesh, first, image_folder)
         parts = write_parts(pxr, mesh, first)
         primvars = self._primvars(first, parts)
@@ -140,7 +144,9 @@ class _StageWriter:
         """Set the axis, the unit and the rate of the stage; return whether the unit could be set."""
         stage, geom = self._stage, self._pxr.UsdGeom
         rate = self._shared.frame_rate or USUAL_RATE
-        axis = geom.Tokens.z if up == "z" else geom.Tokens.y
+        axis = geom.Tokens.y
+        if up == "z":
+            axis = geom.Tokens.z
         geom.SetStageUpAxis(stage, axis)
         geom.SetStageMetersPerUnit(stage, unit or 1.0)
         stage.SetTimeCodesPerSecond(rate)
@@ -165,7 +171,9 @@ class _StageWriter:
     def _set_mesh(self, frame: TriangleMesh, time: float) -> None:
         """Let the mesh have the faces and attributes of a frame from a time on."""
         pxr, mesh = self._pxr, self._mesh
-        faces = frame.faces[:0] if is_empty(frame.attributes) else frame.faces
+        faces = frame.faces
+        if is_empty(frame.attributes):
+            faces = faces[:0]
         mesh.GetFaceVertexCountsAttr().Set(np.full(len(faces), 3), time)
         mesh.GetFaceVertexIndicesAttr().Set(faces.reshape(-1), time)
         bind_materials(pxr, mesh, frame, self._materials, time)
@@ -175,7 +183,9 @@ class _StageWriter:
 
     def _primvars(self, frame: TriangleMesh, parts: Attribute | None) -> list[Attribute]:
         """Return the attributes that are not written as sets of faces."""
-        materials = face_numbers(frame, "material") if self._materials else None
+        materials: Attribute | None = None
+        if self._materials:
+            materials = face_numbers(frame, "material")
         return [
             a for a in frame.attributes if a is not materials and a is not parts and a.name != EMPTY
         ]
@@ -187,13 +197,17 @@ class _StageWriter:
             return self._write_color(attribute, time)
         values = attribute.values.astype(np.float32)
         if attribute.semantic == "texcoord" and width == 2:
-            name = COORDINATES if attribute.name == "texcoord" else self._identifier(attribute.name)
+            name = self._identifier(attribute.name)
+            if attribute.name == "texcoord":
+                name = COORDINATES
             self._set_primvar(attribute, name, types.TexCoord2fArray, values, time)
             return True
         if not (values == attribute.values).all():
             return False
-        size = width if width > 1 else ""
-        kind = getattr(types, f"Float{size}Array")
+        type_name = "FloatArray"
+        if width > 1:
+            type_name = f"Float{width}Array"
+        kind = getattr(types, type_name)
         self._set_primvar(attribute, self._identifier(attribute.name), kind, values, time)
         return True
 
@@ -212,10 +226,11 @@ class _StageWriter:
                     color, name="displayOpacity", values=linear[:, 3:], semantic="generic"
                 )
                 self._write_attribute(opacity, time)
-        name = "displayColor" if is_display_color else self._identifier(color.name)
-        self._set_primvar(
-            color, name, self._pxr.Sdf.ValueTypeNames.Color3fArray, linear[:, :3], time
-        )
+        name = self._identifier(color.name)
+        if is_display_color:
+            name = "displayColor"
+        kind = self._pxr.Sdf.ValueTypeNames.Color3fArray
+        self._set_primvar(color, name, kind, linear[:, :3], time)
         return True
 
     def _identifier(self, name: str) -> str:
@@ -233,7 +248,9 @@ class _StageWriter:
         }
         api = pxr.UsdGeom.PrimvarsAPI(self._mesh)
         primvar = api.CreatePrimvar(name, kind, interpolations[attribute.domain])
-        primvar.Set(values[:, 0] if values.shape[1] == 1 else values, time)
+        if values.shape[1] == 1:
+            values = values[:, 0]
+        primvar.Set(values, time)
         if attribute.indices is not None:
             rows = np.ascontiguousarray(attribute.indices.reshape(-1), np.int32)
             primvar.SetIndices(pxr.Vt.IntArray.FromNumpy(rows), pxr.Usd.TimeCode(time))
