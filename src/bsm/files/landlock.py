@@ -28,7 +28,9 @@ def lack() -> str | None:
         return "landlockpy: pip install landlockpy"
     if platform.machine() not in PROCESSORS:
         return "a processor of x86-64 or ARM"
-    return None if landlock.supported() else "a kernel with Landlock"
+    if not landlock.supported():
+        return "a kernel with Landlock"
+    return None
 
 
 def folders_of(paths: Iterable[str]) -> set[str]:
@@ -48,9 +50,10 @@ def close_files(folders: set[str]) -> None:
     with landlock.Ruleset(scoped=scope) as rules:
         for path in itertools.chain(libraries(), folders):
             with suppress(OSError):  # the folder may have been removed meanwhile
-                rules.allow_path(
-                    path, read_rights if os.path.isdir(path) else landlock.AccessFS.READ_FILE
-                )
+                if os.path.isdir(path):
+                    rules.allow_path(path, read_rights)
+                else:
+                    rules.allow_path(path, landlock.AccessFS.READ_FILE)
         rules.restrict()
 
 

@@ -77,11 +77,9 @@ def as_mesh(mesh: Any) -> TriangleMesh:
 def as_file(mesh: Any) -> Input | None:
     """The input that a path, bytes or a file is; None: an object of a library, some of which have a `read`, too."""
     is_source = isinstance(mesh, (str, bytes, bytearray, memoryview, os.PathLike, Input))
-    return (
-        as_input(mesh)
-        if is_source or (hasattr(mesh, "read") and _attribute(mesh, _POINTS) is None)
-        else None
-    )
+    if is_source or (hasattr(mesh, "read") and _attribute(mesh, _POINTS) is None):
+        return as_input(mesh)
+    return None
 
 
 def _of_library(mesh: Any) -> MeshFile:
@@ -124,7 +122,10 @@ def read_any(source: Input, **reading: Any) -> TriangleMesh:
         )
         return with_linked_images(mesh, source.name)
     contents = read_mesh(source, **reading)
-    warn(f"{source.name}: {note}" if source.name else note for note in contents.notes)
+    prefix = ""
+    if source.name:
+        prefix = f"{source.name}: "
+    warn(f"{prefix}{note}" for note in contents.notes)
     return contents.mesh
 
 
@@ -206,10 +207,10 @@ def _of_open3d(mesh: Any) -> Polygons:
     )
     if (materials := np.asarray(mesh.triangle_material_ids)).size:
         columns.append(Column("material", materials.reshape(-1, 1), "face"))
-    losses, faces = (
-        ("textures",) if len(getattr(mesh, "textures", ())) else (),
-        np.asarray(mesh.triangles),
-    )
+    losses: tuple[str, ...] = ()
+    if len(getattr(mesh, "textures", ())):
+        losses = ("textures",)
+    faces = np.asarray(mesh.triangles)
     polygons = _of_polygons(mesh.vertices, np.full(len(faces), 3), faces.reshape(-1), columns)
     return replace(polygons, dropped=losses)
 
@@ -226,16 +227,23 @@ def _of_openmesh(mesh: Any) -> Polygons:
     halfedges = table[table >= 0]
 
     def held(name: str) -> Any:
-        return getattr(mesh, name)() if getattr(mesh, f"has_{name}")() else ()
+        has_values = getattr(mesh, f"has_{name}")
+        if not has_values():
+            return ()
+        values = getattr(mesh, name)
+        return values()
 
-    uvs = held("halfedge_texcoords2D")
+    texcoords: tuple[Semantic, Domain, Any]
+    texcoords_of_halfedges = held("halfedge_texcoords2D")
+    if len(texcoords_of_halfedges):
+        texcoords = "texcoord", "corner", texcoords_of_halfedges[halfedges]
+    else:
+        texcoords = "texcoord", "vertex", held("vertex_texcoords2D")
     columns = _shown(
         ("normal", "vertex", held("vertex_normals")),
         ("color", "vertex", held("vertex_colors")),
         ("color", "face", held("face_colors")),
-        ("texcoord", "corner", uvs[halfedges])
-        if len(uvs)
-        else ("texcoord", "vertex", held("vertex_texcoords2D")),
+        texcoords,
     )
     return _of_polygons(mesh.points(), (table >= 0).sum(axis=1), ends[halfedges], columns)
 

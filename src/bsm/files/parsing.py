@@ -175,7 +175,9 @@ def text_table(row: str, columns: npt.NDArray[Any]) -> bytes:
 
 def point_row(keyword: str, positions: Doubles) -> str:
     """The format of a line with a point: nine digits where float32 suffices, else as many as float64 needs."""
-    number = "{:.9g}" if single_suffices(positions) else "{!r}"
+    number = "{!r}"
+    if single_suffices(positions):
+        number = "{:.9g}"
     return f"{keyword}{number} {number} {number}\n"
 
 

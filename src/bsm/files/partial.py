@@ -56,7 +56,9 @@ def decode_blocks(
     def enough(event: Any) -> bool:
         nonlocal most_blocks, blocks_done
         if isinstance(event, HeaderEvent):
-            most_blocks = count if event.header.grid else min(count, event.header.blocks)
+            most_blocks = count
+            if not event.header.grid:
+                most_blocks = min(count, event.header.blocks)
         elif isinstance(event, BlockEvent):
             blocks_done += 1
             progress(blocks_done, most_blocks)
@@ -108,8 +110,10 @@ def _lost_contents(
     present = {attribute.name for attribute in mesh.attributes}
     names = [_name_of(section) for section in sections if section.type == FrameType.ATTRIBUTE]
     lost = sorted({name for name in names if name} - present)
-    if lost:
-        yield f"the attributes {', '.join(lost)}" if len(lost) > 1 else f"the attribute {lost[0]}"
+    if len(lost) > 1:
+        yield f"the attributes {', '.join(lost)}"
+    elif lost:
+        yield f"the attribute {lost[0]}"
     # Sections that are damaged themselves, or were cut off, do not tell a name.
     unnamed = declared - len(present) - len(lost)
     if unnamed > 0:
@@ -133,17 +137,21 @@ def _metadata_sections(sections: Sequence[Section]) -> list[Section]:
 def _named_images(numbers: Collection[int], metadata: Metadata) -> str:
     """Return images by their names, or by their numbers where the names are lost."""
     names = [str(metadata.get(f"image.{number}.name", number)) for number in sorted(numbers)]
-    plural = "s" if len(names) > 1 else ""
-    more = f" and {len(names) - _MOST_NAMED} more" if len(names) > _MOST_NAMED else ""
-    return f"the image{plural} {', '.join(names[:_MOST_NAMED])}{more}"
+    if len(names) == 1:
+        return f"the image {names[0]}"
+    words = f"the images {', '.join(names[:_MOST_NAMED])}"
+    if len(names) > _MOST_NAMED:
+        words += f" and {len(names) - _MOST_NAMED} more"
+    return words
 
 
 def _lost_images(sections: Sequence[Section], metadata: Metadata) -> set[int]:
     """Return the numbers of the images whose bytes were lost."""
     lost: set[int] = set()
     for section in _metadata_sections(sections):
-        keys = _keys_of(section) if section.is_sound else []
-        matches = [_IMAGE_DATA.fullmatch(key) for key in keys if key not in metadata]
+        if not section.is_sound:
+            continue
+        matches = [_IMAGE_DATA.fullmatch(key) for key in _keys_of(section) if key not in metadata]
         lost |= {int(match[1]) for match in matches if match}
     is_whole = all(section.is_sound for section in _metadata_sections(sections))
     if is_whole and any(section.type == FrameType.END for section in sections):

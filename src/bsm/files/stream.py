@@ -29,7 +29,9 @@ MANIFEST = "manifest.json"  # of a folder of tiles
 
 def is_tiles(path: str) -> bool:
     """Whether a folder, or a URL that ends with a slash, holds a manifest."""
-    return path.endswith("/") if is_url(path) else Path(path, MANIFEST).is_file()
+    if is_url(path):
+        return path.endswith("/")
+    return Path(path, MANIFEST).is_file()
 
 
 def is_scene(path: str) -> bool:
@@ -50,7 +52,9 @@ def refuse_mesh(path: str) -> None:
 
 def refuse_mesh_file(source: Input) -> None:
     """Raise an error that names the right function if an input begins like a mesh file, and not like a stream."""
-    kind = None if is_stream(source) else format_of_bytes(source.peek(1 << 12))
+    if is_stream(source):
+        return
+    kind = format_of_bytes(source.peek(1 << 12))
     if kind is not None:
         raise FormatError(
             f"this is {FORMATS[kind].called or kind}, not a BSM stream; bsm.load reads it", offset=0
@@ -167,10 +171,12 @@ class SequenceStream:
                 case LossEvent(_, error, frames):
                     assert self._note is not None
                     first, last = frames.start, frames.stop - 1
-                    what = f"frame {first} is" if first == last else f"frames {first} to {last} are"
-                    self._note(
-                        f"{what if frames else f'what follows frame {first} is'} lost: {error}"
-                    )
+                    what = f"frames {first} to {last} are"
+                    if first == last:
+                        what = f"frame {first} is"
+                    if not frames:
+                        what = f"what follows frame {first} is"
+                    self._note(f"{what} lost: {error}")
 
 
 def decode_through(chunks: Iterator[bytes], limits: Limits = DEFAULT_LIMITS) -> int:

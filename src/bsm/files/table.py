@@ -186,7 +186,9 @@ def other_kind(head: bytes, suffix: str) -> str:
     name = next(
         (kind_name for begins, kind_name in kinds.items() if re.match(begins, head[:1024])), ""
     )
-    return "" if name == FORMATS[suffix].called else name
+    if name == FORMATS[suffix].called:
+        return ""
+    return name
 
 
 def by_name(module: str, function: str) -> Any:
@@ -197,11 +199,15 @@ def by_name(module: str, function: str) -> Any:
 @cache
 def load_modules(kind: str) -> None:
     """Import the modules that read a format, as far as they are there."""
-    for name in FORMATS[kind].modules if kind else ():
+    if not kind:
+        return
+    for name in FORMATS[kind].modules:
         with suppress(ImportError):
             importlib.import_module(name)
 
 
 def format_of_name(path: str | os.PathLike[str]) -> str | None:
     suffix = Path(path).suffix[1:].lower()
-    return suffix if suffix in WRITTEN_FORMATS else None
+    if suffix not in WRITTEN_FORMATS:
+        return None
+    return suffix

@@ -37,7 +37,9 @@ class Taken:
         row = self._rows.get(owner, self._rows[""])
         if name in row:
             return True
-        text = f"{value:g}" if isinstance(value, int | float) else "".join(str(value).split())
+        text = "".join(str(value).split())
+        if isinstance(value, int | float):
+            text = f"{value:g}"
         if f"{name}={text}" in row:
             return True
         return any(name[: match.end()] in row for match in re.finditer("[:_]", name))
@@ -47,8 +49,9 @@ class Taken:
         unread: dict[str, None] = {}
         for owner, name, value in said:
             if not self.takes(owner, name, value):
-                is_plain = owner in ("", "glTF", "extensions")
-                unread[name if is_plain else f"{name} of {owner}"] = None
+                if owner not in ("", "glTF", "extensions"):
+                    name = f"{name} of {owner}"
+                unread[name] = None
         names = list(unread)
         if len(names) > _MOST_NAMED:
             return [*names[:_MOST_NAMED], f"{len(names) - _MOST_NAMED} other names"]

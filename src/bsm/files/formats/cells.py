@@ -44,7 +44,10 @@ def columns_of(
         if values.dtype.kind not in "biuf":
             losses[f"{name} ({values.dtype.name} values)"] = None
             continue
-        rows = values[:, None] if values.ndim == 1 else values.reshape(len(values), -1)
+        if values.ndim == 1:
+            rows = values[:, None]
+        else:
+            rows = values.reshape(len(values), -1)
         yield named_column(name, rows, domain, meanings.get(name), component_names.get(name, ()))
 
 
@@ -82,7 +85,9 @@ def _sides(kind: str, table: Ints, cells: Ints, points: Doubles) -> list[_Side]:
     corner_count = len({*faces} - {" "})
     if table.shape[1] not in (corner_count, corner_count + len(ends), most_nodes):
         return []
-    step = 2 if table.shape[1] > corner_count else 1  # quadratic cells have a node on each edge
+    step = 1
+    if table.shape[1] > corner_count:  # quadratic cells have a node on each edge
+        step = 2
     sides: list[_Side] = []
     for face in faces.split():
         nodes: list[int] = []
@@ -203,10 +208,12 @@ def _outer_polygons(sides: list[_Side]) -> tuple[Ints, Ints, Ints]:
 def of_meshio(mesh: Any) -> Polygons:
     """Return the surfaces of a meshio mesh and the skin of its volumes, in the order of its cells."""
     losses: list[str] = []
-    blocks = [
-        (block.type, [*block.data] if block.type.startswith("poly") else block.data)
-        for block in mesh.cells
-    ]
+    blocks: list[tuple[str, Any]] = []
+    for block in mesh.cells:
+        table = block.data
+        if block.type.startswith("poly"):
+            table = [*table]
+        blocks.append((block.type, table))
     for what in ("point_sets", "cell_sets", "field_data", "info"):
         names = ", ".join(map(str, getattr(mesh, what, None) or ()))
         if names:

@@ -99,7 +99,9 @@ def _say_place(document: Any, mesh: TriangleMesh) -> set[str]:
         document.assetInfo.upaxis = f"{up}_UP"
         metadata_held.add("up")
     unit = unit_of(mesh.metadata)
-    size = metres(unit) if unit else None
+    size: float | None = None
+    if unit:
+        size = metres(unit)
     document.assetInfo.unitmeter, document.assetInfo.unitname = 1.0, "meter"
     if size is not None:
         document.assetInfo.unitmeter = size
@@ -153,9 +155,13 @@ def _inputs(collada: Any, attributes: Sequence[Attribute | None]) -> Any:
         attributes,
         strict=True,
     ):
-        if attribute is not None:
-            inputs.addInput(offset, meaning, source, "0" if meaning == "TEXCOORD" else None)
-            offset += 1
+        if attribute is None:
+            continue
+        number_of_set: str | None = None
+        if meaning == "TEXCOORD":
+            number_of_set = "0"
+        inputs.addInput(offset, meaning, source, number_of_set)
+        offset += 1
     return inputs
 
 

@@ -104,7 +104,9 @@ def _column(name: str, values: Any, domain: Domain) -> Column:
     table = np.array(values)
     if table.ndim == 1:
         table = table[:, None]
-    width = table.shape[1] if table.ndim == 2 else 0
+    width = 0
+    if table.ndim == 2:
+        width = table.shape[1]
     return Column(name, table, domain, meaning_of(name, width))
 
 
@@ -202,8 +204,12 @@ def _words_of(material: Any, images: list[bytes]) -> Material:
             numbers = np.asarray(value).reshape(-1)
             if numbers.dtype == np.uint8:
                 numbers = numbers / 255
-            words[name] = as_text(numbers[:3] if name.startswith("K") else numbers)
-    return {} if words == {"doubleSided": 0} else words  # the default
+            if name.startswith("K"):
+                numbers = numbers[:3]
+            words[name] = as_text(numbers)
+    if words == {"doubleSided": 0}:  # the default
+        return {}
+    return words
 
 
 def _data_of(image: Any) -> bytes:
