@@ -108,11 +108,8 @@ def leave(
     data: Any
     for value in (_ANSWERS.index(form), *_flat(form, result)):
         if isinstance(value, np.ndarray):
-            kind, shape, data = (
-                str(value.dtype),
-                value.shape,
-                np.ascontiguousarray(value).reshape(-1).view(np.uint8),
-            )
+            numbers = np.ascontiguousarray(value).reshape(-1)
+            kind, shape, data = str(value.dtype), value.shape, numbers.view(np.uint8)
         else:
             kind = next(kind for kind in _PLAIN if isinstance(value, kind))
             data = _PLAIN[kind][0](value)

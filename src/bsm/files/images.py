@@ -126,11 +126,10 @@ def size_of_image(data: bytes) -> tuple[int, int]:
     if not data.startswith((b"\x89PNG", b"\xff\xd8")):
         return 0, 0
     segments = _PNG_OR_JPEG.findall(data)  # a JPEG may contain a smaller one
-    sizes = (
-        (int.from_bytes(a, "big"), int.from_bytes(b, "big"))
-        for wide, high, y, x in segments
-        for a, b in ((wide, high), (x, y))
-    )
+    sizes: list[tuple[int, int]] = []
+    for wide, high, y, x in segments:
+        sizes.append((int.from_bytes(wide, "big"), int.from_bytes(high, "big")))
+        sizes.append((int.from_bytes(x, "big"), int.from_bytes(y, "big")))
     return max(sizes, default=(0, 0))
 
 

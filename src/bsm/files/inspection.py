@@ -175,7 +175,7 @@ def inspect_stream(chunks: Iterable[bytes], limits: Limits = DEFAULT_LIMITS) -> 
     checksum: int | None = None
     total = entries = version = levels = 0
     brief = False
-    for packet in (packet for chunk in chain(chunks, (None,)) for packet in skimmer.receive(chunk)):
+    for packet in chain.from_iterable(map(skimmer.receive, chain(chunks, (None,)))):
         total, version = packet.offset + packet.length, packet.version
         match packet.type:
             case FrameType.HEADER:

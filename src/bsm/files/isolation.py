@@ -109,13 +109,14 @@ def _read_there(
         kind = ""
     size = len(data) + sum(map(os.path.getsize, names))
     seconds = math.ceil(min(limits.work_for(limits.vertices, size) / 1e9, 1e6))
+    soft_limit, _ = resource.getrlimit(resource.RLIMIT_CPU)
     extra_fields |= {
         "format": file_format,
         "kind": kind,
         "names": names,
         "limits": asdict(limits),
         "memory": int(min(limits.memory_for(limits.vertices, size), 1 << 40)),
-        "seconds": max(1, _least(seconds, max(resource.getrlimit(resource.RLIMIT_CPU)[0] - 1, -1))),
+        "seconds": max(1, _least(seconds, max(soft_limit - 1, -1))),
     }
     extra_fields["patience"] = _PATIENCE * extra_fields["seconds"]
     with shared(json.dumps(extra_fields).encode() + b"\n" + data) as memory:
@@ -378,9 +379,8 @@ def _confine(request: dict[str, Any]) -> None:
         soft, hard = resource.getrlimit(limit)  # of where this runs, which may be less
         resource.setrlimit(limit, (_least(most, soft), _least(longest, hard)))
     if landlock.lack() is None:
-        landlock.close_files(
-            landlock.folders_of(filter(None, [*request["names"], request.get("beside")]))
-        )
+        files = filter(None, [*request["names"], request.get("beside")])
+        landlock.close_files(landlock.folders_of(files))
     _close_calls()
 
 

@@ -35,9 +35,10 @@ def lack() -> str | None:
 
 def folders_of(paths: Iterable[str]) -> set[str]:
     """Return the folders of files, and of the targets of links."""
-    return {
-        os.path.dirname(way(path)) for path in paths for way in (os.path.abspath, os.path.realpath)
-    }
+    folders: set[str] = set()
+    for path in paths:
+        folders |= {os.path.dirname(os.path.abspath(path)), os.path.dirname(os.path.realpath(path))}
+    return folders
 
 
 # Landlock takes only a list of allowed paths. Python and its packages must still be loaded, and a mesh may name other
@@ -63,10 +64,8 @@ def libraries() -> tuple[str, ...]:
     """Return the folders of Python, of packages and of libraries; not all of `sys.path`, where a checkout may be."""
     installed = {path for path in sys.path if Path(path).name in ("site-packages", "dist-packages")}
     python = {sysconfig.get_path(name) for name in ("stdlib", "platstdlib", "purelib", "platlib")}
-    loaded = {
-        path
-        for module in list(sys.modules.values())
-        for path in list(getattr(module, "__path__", ()))
-    }
+    loaded: set[str] = set()
+    for module in list(sys.modules.values()):
+        loaded.update(list(getattr(module, "__path__", ())))
     system = {"/usr", "/lib", "/lib64", "/etc/ld.so.cache", "/dev/null", "/dev/urandom"}
     return tuple(filter(os.path.exists, installed | python | loaded | system))

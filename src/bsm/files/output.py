@@ -176,9 +176,10 @@ def own_name(path: str) -> str:
 def refuse_collisions(inputs: Iterable[str], outputs: Iterable[str]) -> None:
     """Raise `OptionError` if an output would replace an input or another output, under whatever name or link."""
     names = [own_name(output) for output in outputs if output]
-    input_identities = {
-        _identity(file) for name in map(own_name, inputs) for file in pipes.files_behind(name)
-    } - {None}
+    input_identities: set[object] = set()
+    for name in map(own_name, inputs):
+        input_identities |= set(map(_identity, pipes.files_behind(name)))
+    input_identities.discard(None)
     output_identities: set[object] = set()
     for output in names:
         identity = _identity(output)

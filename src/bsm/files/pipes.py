@@ -429,7 +429,8 @@ def read_range(name: str, first: int, size: int) -> bytes:
     else:
         with open(name, "rb") as file:
             file.seek(first)
-            data = file.read(max(0, min(size, os.fstat(file.fileno()).st_size - first)))
+            left = os.fstat(file.fileno()).st_size - first
+            data = file.read(max(0, min(size, left)))
     if len(data) != size:
         raise errors.TruncatedError(
             f"{name}: there are {len(data)} bytes of {size} from byte {first} on"

@@ -10,6 +10,7 @@ import tempfile
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import replace
+from itertools import chain
 from itertools import count as count_from
 from pathlib import Path
 
@@ -136,9 +137,7 @@ def open_frames(
         paths = [os.path.abspath(name) for name in ordered]
         frames: Frames = by_name(*_ISOLATED)(paths, file_format, limits, kinds[0], request)
         return frames
-    # Lists of ParaView may name several files for one time, the parts of one mesh.
-    ends = np.cumsum(request.parts or [1] * len(ordered)).tolist()
-    groups = [ordered[begin:end] for begin, end in zip([0, *ends], ends, strict=False)]
+    groups = _groups_of_files(ordered, request.parts or [1] * len(ordered))
     by_label = {", ".join(group): group for group in groups}
     # One for each place in a group: polygons of later frames must be cut along the diagonals of the first, or faces
     # would change although nothing does but positions.
@@ -153,6 +152,12 @@ def open_frames(
         return joined_files(files, group, limits)
 
     return folder.read_files([", ".join(group) for group in groups], read, request)
+
+
+def _groups_of_files(names: Sequence[str], counts: Sequence[int]) -> list[Sequence[str]]:
+    """Return the files of each frame: lists of ParaView may name several for one time, the parts of one mesh."""
+    ends = np.cumsum(counts).tolist()
+    return [names[begin:end] for begin, end in zip([0, *ends], ends, strict=False)]
 
 
 def _files_of_frames(path: str) -> Iterable[str]:
@@ -172,7 +177,7 @@ def size_of_sequence(
     if any(size_of(path) is None for path in paths if not folder.names_many(path)):
         return None
     file_names: list[str] = []
-    for path in (file for name in paths for file in _files_of_frames(name)):
+    for path in chain.from_iterable(map(_files_of_frames, paths)):
         kind = Path(path).suffix[1:].lower()
         file_names.append(path)
         if kind in folder.LISTS:

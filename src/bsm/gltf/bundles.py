@@ -256,9 +256,9 @@ def _quality(name: str, array: Array, extent: float, texel: Callable[[str], floa
 def _texel(document: gltf.Document, bundle: Bundle, name: str) -> float:
     """The side of the smallest texel of the images that a set of texture coordinates places."""
     sides: list[float] = []
-    materials = {
-        primitive["material"] for same in bundle for primitive in same if "material" in primitive
-    }
+    materials: set[int] = set()
+    for same in bundle:
+        materials |= {primitive["material"] for primitive in same if "material" in primitive}
     for index in materials:
         material = document.item("materials", index)
         groups = [

@@ -3,6 +3,7 @@
 from collections import Counter
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from itertools import chain
 from typing import Any
 
 import numpy as np
@@ -133,16 +134,15 @@ def _one_grid(
         if "skin" in entry:
             matrix = np.eye(4)
         matrices.setdefault(entry.get("mesh"), matrix)
-    meshes = {
-        id(primitive): n
-        for n, mesh in enumerate(tree["meshes"])
-        for primitive in mesh["primitives"]
-    }
+    meshes: dict[int, int] = {}
+    for number, mesh in enumerate(tree["meshes"]):
+        meshes |= {id(primitive): number for primitive in mesh["primitives"]}
     placed = [matrices.get(meshes[id(bundle[0][0])], np.eye(4)) for bundle in bundles]
     # Nine digits: writers compute the same rotation in different ways.
     keys = [np.round(matrix[:3, :3], 9).tobytes() for matrix in placed]
     cells: dict[bytes, float] = {}
-    corners = [same[0]["attributes"]["POSITION"] for bundle in bundles for same in bundle]
+    every = chain.from_iterable(bundles)
+    corners = [same[0]["attributes"]["POSITION"] for same in every]
     document.limits.check_memory(
         gltf.PER_NUMBER * sum(map(document.claimed, corners)), 0, document.received
     )

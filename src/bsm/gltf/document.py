@@ -234,9 +234,8 @@ class Document:
         if key not in self._unpacked:
             unpacked = coding.unpack_draco(self.view(extension["bufferView"]))
             self._unpacked[key] = unpacked
-            self._charge(
-                sum(table.nbytes for table in unpacked.values()), max(map(len, unpacked.values()))
-            )
+            longest = max(map(len, unpacked.values()))
+            self._charge(sum(table.nbytes for table in unpacked.values()), longest)
         values: Array = self._unpacked[key].get(number, np.zeros((0, 0)))
         # Accessors repeat what Draco holds. Where they disagree, one of them is damaged.
         if values.shape != (count, width) and not (number < 0 and values.shape[1] == width):

@@ -223,7 +223,9 @@ class Rewritten(gltf.Growing):
 
     def _new_view(self, stream: int, name: str, array: Array, component: int) -> int:
         extension: Tree = {"stream": stream, "attribute": name}
-        usual_component = UINT if name == "indices" else FLOAT
+        usual_component = FLOAT
+        if name == "indices":
+            usual_component = UINT
         if component != usual_component:
             extension["componentType"] = component
         view: Tree = {"buffer": 1, "byteLength": array.nbytes, "extensions": {EXTENSION: extension}}

@@ -388,7 +388,8 @@ class Scene:
         # Samplers serve many channels.
         times = {id(curve.times): curve.times for curve in self._curves.values()}
         # Rounded to microseconds, because exporters compute equal times in different ways.
-        return np.unique(np.round(np.concatenate([np.empty(0), *times.values()]), 6))
+        keys = np.concatenate([np.empty(0), *times.values()])
+        return np.unique(np.round(keys, 6))
 
     def at(self, time: float) -> Doubles:
         """Return the positions of all parts' vertices, one part after the other."""
@@ -657,9 +658,8 @@ class Scene:
                 return kinds.index(kind), ""
             return kinds.index(kind), name
 
-        for name in sorted(accessors, key=place):
-            if not name.startswith(("TEXCOORD_", "COLOR_", "_")):
-                continue
+        names = [name for name in accessors if name.startswith(("TEXCOORD_", "COLOR_", "_"))]
+        for name in sorted(names, key=place):
             kind, _, number = name.partition("_")  # sets are counted by their order
             values: Any = self._document.numbers(accessors[name], unscaled=kind == "COLOR")
             if len(values) != count or values.shape[1] > 4:

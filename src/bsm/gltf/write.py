@@ -112,8 +112,10 @@ class _Scene(Growing):
         )
         sorting: list[Array] = []
         for numbers in (part, material):
-            values = np.zeros(len(split.faces), np.int64) if numbers is None else numbers.values
-            sorting.append(values)
+            if numbers is None:
+                sorting.append(np.zeros(len(split.faces), np.int64))
+            else:
+                sorting.append(numbers.values)
         # A primitive has one material and a node one name, so faces are sorted by both.
         kinds, kind_of_face = np.unique(np.column_stack(sorting), axis=0, return_inverse=True)
         arrays, vertex_attributes = _at_vertices(split)

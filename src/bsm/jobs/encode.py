@@ -516,5 +516,7 @@ def _finish(
     for note in notes:
         console.note(f"{job.input}: {note}")
     console.note(f"{job.input} -> {job.output}: {summary}; {seconds:.2f} s")
-    output = None if job.dry_run else job.output
+    output: str | None = job.output
+    if job.dry_run:
+        output = None
     return {"input": job.input, "output": output, **facts, "seconds": seconds, "notes": notes}

@@ -23,11 +23,10 @@ def copy_descriptions(
     """Copy the descriptions in folders and subfolders to the same places of another folder."""
     if output is None:
         return
-    pairs = [
-        (path, Path(output, path.relative_to(folder)))
-        for folder in folders
-        for path in _descriptions(folder)
-    ]
+    pairs: list[tuple[Path, Path]] = []
+    for folder in folders:
+        paths = _descriptions(folder)
+        pairs += [(path, Path(output, path.relative_to(folder))) for path in paths]
     # All are looked at before the first is written.
     for source, target in pairs:
         if target.exists() and not overwrite and target.read_bytes() != source.read_bytes():

@@ -334,18 +334,8 @@ def table(files: Sequence[Facts]) -> Iterator[str]:
         yield f"{facts['input']:{width}} {_cells(_alone(facts, shared), unit)}"
     # Bytes of a shared image would count in each row, and the rows would add up to more than the sum.
     if shared:
-        sizes = (
-            sum(
-                {
-                    p: s
-                    for f in files
-                    for p, s in (f.get(f"{w}_parts") or {}).items()
-                    if p in shared
-                }.values()
-            )
-            for w in _WAYS
-        )
-        yield f"{counted(files=len(shared))} of several rows, which count once: {' -> '.join(map(str, sizes))} bytes"
+        sizes = " -> ".join(str(_bytes_of_parts(files, way, shared)) for way in _WAYS)
+        yield f"{counted(files=len(shared))} of several rows, which count once: {sizes} bytes"
     if left := len(files) - len(rows):
         yield f"and {left} more, with smaller errors, in the report"
     if notes:
@@ -361,6 +351,14 @@ def _alone(facts: Facts, shared: Set[str]) -> Facts:
         for way in _WAYS
     }
     return facts | {name: facts[name] - size for name, size in less.items() if size}
+
+
+def _bytes_of_parts(files: Sequence[Facts], way: str, shared: Set[str]) -> int:
+    """The bytes of the parts that several inputs or outputs share, each counted once."""
+    sizes: dict[str, int] = {}
+    for facts in files:
+        sizes |= facts.get(f"{way}_parts") or {}
+    return sum(size for part, size in sizes.items() if part in shared)
 
 
 def _cells(facts: Facts, unit: str) -> str:

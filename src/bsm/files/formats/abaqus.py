@@ -135,6 +135,15 @@ class _ModelReader:
         self._scope = self.model
         self._in_assembly = False
 
+    def _read_nodes(self, keyword: _Keyword) -> None:
+        parameters, line = keyword.parameters, keyword.line
+        system = parameters.get("SYSTEM", "").upper()
+        if {"SYSTEM", "INPUT"} & parameters.keys() and system != "R":
+            raise self._table.refusal(f"*NODE with {' and '.join(parameters)}", line)
+        self._scope.nodes.append((line, keyword.rows))
+        if "NSET" in parameters:
+            self._table.leave(f"NSET {parameters['NSET']}", line)
+
     def read(self, keyword: _Keyword) -> None:
         name, parameters, line = keyword.name, keyword.parameters, keyword.line
         if name == "PART":
@@ -149,13 +158,7 @@ class _ModelReader:
             if self._in_assembly:
                 self._scope = _Scope("")
         elif name == "NODE":
-            if {"SYSTEM", "INPUT"} & parameters.keys() and parameters.get(
-                "SYSTEM", ""
-            ).upper() != "R":
-                raise self._table.refusal(f"*NODE with {' and '.join(parameters)}", line)
-            self._scope.nodes.append((line, keyword.rows))
-            if "NSET" in parameters:
-                self._table.leave(f"NSET {parameters['NSET']}", line)
+            self._read_nodes(keyword)
         elif name == "ELEMENT":
             outside = self._in_assembly and self._scope not in self.instances
             if "INPUT" in parameters or "OFFSET" in parameters or outside:

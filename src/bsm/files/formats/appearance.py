@@ -164,10 +164,9 @@ def appearance(words: Material) -> Appearance:
         fields.setdefault("surface_texture", Texture(roughness))
         fields_by_word |= dict.fromkeys(("map_Pr", "map_Pm"), ("surface_texture",))
     if any(map(is_mtl, words)):  # what MTL means where it says nothing
-        usual_metallic = 0.0
         if metal is not None and "map_Pr" in fields_by_word:
-            usual_metallic = 1.0
-        fields.setdefault("metallic", usual_metallic)
+            fields.setdefault("metallic", 1.0)
+        fields.setdefault("metallic", 0.0)
         if "map_Ke" in words and not any(fields.get("emission", ())):
             fields["emission"] = (1.0, 1.0, 1.0)
     # The image of the color also holds the opacity.

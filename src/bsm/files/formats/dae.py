@@ -70,20 +70,26 @@ def read_dae(data: bytes, path: str | None, limits: Limits) -> Polygons:
             triangles = max(len(shape.corners) - 2 * len(shape.sizes), 0)
             counts.append((len(shape.positions), triangles))
         joined = joined_parts(starmap(scene.part, surfaces), counts, limits, len(data))
-        about = document.assetInfo
-        metadata: dict[str, Value] = {"up": str(about.upaxis or "Y_UP")[0].lower()}
-        metadata["unit"] = unit_named(float(about.unitmeter or 1.0))
-        for contributor in reversed(about.contributors):
-            tool = str(contributor.authoring_tool or "")
-            if tool.startswith("bsm "):
-                metadata["provenance"] = tool
-        metadata |= described(dict(enumerate(scene.materials.values()))) | scene.images
+        metadata = _asset_metadata(document.assetInfo)
+        materials_by_number = dict(enumerate(scene.materials.values()))
+        metadata |= described(materials_by_number) | scene.images
         errors = [
             f"unreadable elements ({in_words(error)[:80]})"
             for error in document.errors[:_MOST_ERRORS]
         ]
         dropped = (*unread, *errors, *scene.absent)
         return replace(joined, metadata={**metadata, **joined.metadata}, dropped=dropped)
+
+
+def _asset_metadata(asset: Any) -> dict[str, Value]:
+    """Return the axis and the unit of a document, and the provenance of one of ours."""
+    metadata: dict[str, Value] = {"up": str(asset.upaxis or "Y_UP")[0].lower()}
+    metadata["unit"] = unit_named(float(asset.unitmeter or 1.0))
+    for contributor in reversed(asset.contributors):
+        tool = str(contributor.authoring_tool or "")
+        if tool.startswith("bsm "):
+            metadata["provenance"] = tool
+    return metadata
 
 
 def _prepared(data: bytes) -> tuple[bytes, list[str]]:
@@ -110,7 +116,8 @@ def _with_ends(polygon: Any) -> Any:
     element = ElementTree.Element(polygon.tag[:-1])
     element.text = " ".join(chain(*rings))
     if len(rings) > 1:
-        element.set("ends", " ".join(map(str, accumulate(map(len, rings)))))
+        ends = accumulate(map(len, rings))
+        element.set("ends", " ".join(map(str, ends)))
     return element
 
 
@@ -154,9 +161,8 @@ class _Nodes:
         """The polygons of a primitive, which may stand in several places."""
         if id(primitive) not in self._shapes:
             index = np.asarray(primitive.index, np.int64).reshape(-1, primitive.index.shape[-1])
-            sizes = np.asarray(
-                getattr(primitive, "vcounts", np.full(len(primitive.index), 3)), np.int64
-            )
+            of_triangles = np.full(len(primitive.index), 3)
+            sizes = np.asarray(getattr(primitive, "vcounts", of_triangles), np.int64)
             sizes, places = _without_holes(primitive, sizes, index.shape[1])
             vertices = np.asarray(primitive.vertex_index).reshape(-1)[places]
             used, corners = np.unique(vertices, return_inverse=True)

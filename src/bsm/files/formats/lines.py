@@ -21,12 +21,10 @@ class Keywords:
 
     def __init__(self, file_format: str, way: str) -> None:
         rows = csv.DictReader(Path(__file__).with_name("keywords.csv").read_text().splitlines())
-        self._harmless = [
-            word
-            for row in rows
-            if row["format"] == file_format
-            for word in row["harmless"].split(";")
-        ]
+        self._harmless: list[str] = []
+        for row in rows:
+            if row["format"] == file_format:
+                self._harmless += row["harmless"].split(";")
         self._way, self.counts = way, Counter[str]()
 
     def leave(self, keyword: str, line: int) -> None:

@@ -137,11 +137,11 @@ def _entries(metadata: Metadata) -> Iterable[tuple[str, int, str, Value]]:
 
 
 def described(materials: Mapping[int, Material]) -> dict[str, Value]:
-    return {
-        f"material.{n}.{name}": value
-        for n, material in materials.items()
-        for name, value in material.items()
-    }
+    entries: dict[str, Value] = {}
+    for number, material in materials.items():
+        for word, value in material.items():
+            entries[f"material.{number}.{word}"] = value
+    return entries
 
 
 # --------------------------------------------------------------------------------------------------- the files beside
@@ -386,11 +386,10 @@ class Written:
 
 def unsaid(metadata: Metadata, kind: str) -> list[str]:
     """The names of the words of materials that say more to other programs than a format holds."""
-    return [
-        f"material.{n}.{word}"
-        for n, m in materials_in(metadata).items()
-        for word in lost(m, held_by(kind))
-    ]
+    names: list[str] = []
+    for number, material in materials_in(metadata).items():
+        names += [f"material.{number}.{word}" for word in lost(material, held_by(kind))]
+    return names
 
 
 def left_out(

@@ -144,8 +144,10 @@ def _word(row: Sequence[str], place: int) -> str:
 
 def _reals(cards: Sequence[Card]) -> Doubles:
     """The fields of cards as numbers, as Nastran writes them: 7.-3 is 7e-3."""
-    fields = " ".join(word or "0" for _, row in cards for word in row)
-    words = _EXPONENT.sub(lambda match: f"e{match[1] or ''}", fields).split()
+    fields: list[str] = []
+    for _, row in cards:
+        fields += [word or "0" for word in row]
+    words = _EXPONENT.sub(lambda match: f"e{match[1] or ''}", " ".join(fields)).split()
     width = 3
     if cards:
         _, first_row = cards[0]

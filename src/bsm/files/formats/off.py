@@ -74,37 +74,43 @@ def read_off(data: bytes, limits: Limits) -> Polygons:
     )
 
 
+def _color_width(extras: bytes, points: Rows, place: int) -> int:
+    """How many numbers a color has that begins at a place; normals and texture coordinates may follow it."""
+    numbers = int(points.counts.min(initial=100)) - place
+    if b"ST" in extras:
+        numbers -= 2
+    if b"NC" in extras:
+        numbers -= 3
+    if numbers >= 4:
+        return 4
+    return 3
+
+
 def _vertex_columns(
     extras: bytes, points: Rows, lines: Sequence[bytes]
 ) -> tuple[list[Column], list[str]]:
     """Normals, colors and texture coordinates, in this order (NC: colors first, by MeshLab); and unknown letters."""
     columns: list[Column] = []
     place = 3
-    has_texcoords = b"ST" in extras
     kinds = [b"N", b"C"]
-    numbers_after_color = 0
-    if has_texcoords:
-        numbers_after_color += 2
     if b"NC" in extras:
         kinds.reverse()
-        numbers_after_color += 3
     for kind in kinds:
         if kind not in extras:
             continue
         if kind == b"N":
-            columns.append(Column("normal", compact(points.columns(place, 3)), semantic="normal"))
+            normals = compact(points.columns(place, 3))
+            columns.append(Column("normal", normals, semantic="normal"))
             place += 3
             continue
-        numbers = int(points.counts.min(initial=100)) - place - numbers_after_color
-        width = 3
-        if numbers >= 4:
-            width = 4
+        width = _color_width(extras, points, place)
         values = points.columns(place, width)
         words = [b" ".join(line.split()[place : place + width]) for line in lines]
         columns.append(color_column(values, "vertex", written_whole=_are_whole(values, words)))
         place += width
-    if has_texcoords:
-        columns.append(Column("texcoord", compact(points.columns(place, 2)), semantic="texcoord"))
+    if b"ST" in extras:
+        texcoords = compact(points.columns(place, 2))
+        columns.append(Column("texcoord", texcoords, semantic="texcoord"))
         place += 2
     if (points.counts > place).any():
         return columns, ["numbers after the coordinates"]
@@ -142,7 +148,9 @@ def write_off(mesh: TriangleMesh, stem: str) -> Written:
         point_row("", mesh.positions)[:-1] + point, np.hstack([mesh.positions, *behind])
     )
     face, behind = _row([of_faces])
-    columns = [*mesh.faces.T.tolist(), *(column for table in behind for column in table.T.tolist())]
+    columns = mesh.faces.T.tolist()
+    for table in behind:
+        columns += table.T.tolist()
     faces = "".join(map(("3 {} {} {}" + face).format, *columns))
     attributes_held = (normal, color, texcoord, of_faces)
     in_remarks = [word for word in unsaid(mesh.metadata, "OFF") if word not in omitted]

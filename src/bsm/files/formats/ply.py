@@ -249,12 +249,10 @@ class _Table:
     def walk(self, place: int) -> tuple[Ints, Ints, int]:
         """Where each row's property begins, how many items it has, and where the last row ends."""
         # The bytes of the length of each property's lists (0: it is a number), and of an item.
-        widths: list[tuple[int, int]] = []
-        for column in self.element.properties:
-            length = 0
-            if column.length:
-                length = self._size(column.length)
-            widths.append((length, self._size(column.type)))
+        widths = [
+            (self._size(column.length), self._size(column.type))
+            for column in self.element.properties
+        ]
         count = self.element.count
         # Rows without properties take no bytes, however many they are.
         if not widths:
@@ -281,8 +279,10 @@ class _Table:
             raise TruncatedError("the PLY file is cut short: a list runs over its end", offset=-end)
         return starts, sizes, end
 
-    def _size(self, kind: str) -> int:
-        """The bytes of a number; those of a text have eight."""
+    def _size(self, kind: str | None) -> int:
+        """The bytes of a number; those of a text have eight, and an absent one none."""
+        if not kind:
+            return 0
         if self.text is not None:
             return 8
         return np.dtype(kind).itemsize

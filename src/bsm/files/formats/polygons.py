@@ -781,7 +781,8 @@ def triangulate(positions: Doubles, sizes: Ints, corners: Ints) -> tuple[Ints, I
         bad = np.setdiff1d(bad, owner[rows[good]])
     if len(bad) == 0:
         return places, owner, 0
-    rows = np.flatnonzero(np.isin(np.repeat(np.arange(len(sizes)), sizes), bad))
+    polygon_of_corner = np.repeat(np.arange(len(sizes)), sizes)
+    rows = np.flatnonzero(np.isin(polygon_of_corner, bad))
     cuts = _ears(scaled[corners[rows]], sizes[bad], normals[bad])
     complete = [place for place, cut in enumerate(cuts) if len(cut) == pieces[bad[place]]]
     for place in complete:
@@ -830,7 +831,9 @@ def cut_holes(points: Doubles, ends: Sequence[int]) -> Ints:
             f"a polygon with holes has {len(points)} corners; cut it into triangles before"
         )
     normal = polygon_normals(points, np.array([ends[0]]), ring)
-    return _clipper()(_flattened(points, np.repeat(normal, len(points), axis=0)), ends)
+    clip = _clipper()
+    normals = np.repeat(normal, len(points), axis=0)
+    return clip(_flattened(points, normals), ends)
 
 
 def _flattened(points: Doubles, normals: Doubles) -> Doubles:
@@ -858,15 +861,14 @@ def _filled(triangles: Ints, size: int) -> Ints:
     if len(triangles) >= size - 2:
         return triangles
     # In the order of the triangles, which JavaScript has, too: that of a set is Python's own.
-    sides = dict.fromkeys(
-        side for i, j, k in triangles.tolist() for side in ((i, j), (j, k), (k, i))
-    )
-    more = [
-        (i, (i + k) % size, (i + k + 1) % size)
-        for i, j in sides
-        if (j, i) not in sides
-        for k in range(1, (j - i) % size)
-    ]
+    sides: dict[tuple[int, int], None] = {}
+    for i, j, k in triangles.tolist():
+        sides |= dict.fromkeys([(i, j), (j, k), (k, i)])
+    more: list[tuple[int, int, int]] = []
+    for i, j in sides:
+        if (j, i) not in sides:
+            steps = range(1, (j - i) % size)
+            more += [(i, (i + step) % size, (i + step + 1) % size) for step in steps]
     return np.concatenate([triangles, np.array(more, np.int64).reshape(-1, 3)])
 
 

@@ -8,6 +8,7 @@ import re
 import zipfile
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
+from itertools import chain
 from typing import Any, Literal
 
 import numpy as np
@@ -113,7 +114,7 @@ class _Model:
 
     def joined(self, size: int) -> Polygons:
         placed = [*_items(self._model.GetBuildItems())]
-        visible = [mesh for item in placed for mesh in self._below(item)]
+        visible = list(chain.from_iterable(map(self._below, placed)))
         if not placed:
             raise MeshError("this 3MF file places no object: its build has no item")
         counts: list[tuple[int, int]] = []

@@ -96,9 +96,9 @@ class _Document:
 
     def __init__(self, text: bytes, appended: bytes, raw: bool, limits: Limits, size: int) -> None:
         elements = elements_of(text)
-        self.arrays = [
-            (parent.tag, child) for parent in elements for child in parent if child.tag in _ARRAYS
-        ]
+        self.arrays: list[tuple[str, ElementTree.Element]] = []
+        for parent in elements:
+            self.arrays += [(parent.tag, child) for child in parent if child.tag in _ARRAYS]
         self.tags = {
             element.tag: element.attrib for element in reversed(elements) if element.tag in _TAGS
         }

@@ -174,6 +174,15 @@ def _materials(meshes: list[Any]) -> tuple[dict[str, Value], list[Array]]:
     return metadata, numbers
 
 
+def _numbers_as_text(name: str, numbers: Array) -> str:
+    """The numbers of a word, bytes as shares; the colors of MTL have three."""
+    if numbers.dtype == np.uint8:
+        numbers = numbers / 255
+    if name.startswith("K"):
+        numbers = numbers[:3]
+    return as_text(numbers)
+
+
 def _words_of(material: Any, images: list[bytes]) -> Material:
     """A material of trimesh in the words of glTF, or of MTL; new images are added to `images`."""
     properties = dict(getattr(material, "_data", None) or {})
@@ -201,12 +210,7 @@ def _words_of(material: Any, images: list[bytes]) -> Material:
         elif isinstance(value, str | int) or (isinstance(value, float) and np.isfinite(value)):
             words[name] = value
         elif isinstance(value, np.ndarray | list | tuple) and np.asarray(value).dtype.kind in "iuf":
-            numbers = np.asarray(value).reshape(-1)
-            if numbers.dtype == np.uint8:
-                numbers = numbers / 255
-            if name.startswith("K"):
-                numbers = numbers[:3]
-            words[name] = as_text(numbers)
+            words[name] = _numbers_as_text(name, np.asarray(value).reshape(-1))
     if words == {"doubleSided": 0}:  # the default
         return {}
     return words

@@ -223,7 +223,7 @@ class _Grids:
     def surface(self, grids: Sequence[Any], size: int) -> Polygons:
         """The surfaces of grids; those over the same mesh are one."""
         self._read = 0
-        every = [leaf for grid in grids for leaf in self._leaves(grid)]
+        every = list(chain.from_iterable(map(self._leaves, grids)))
         shapes = [self._shape(leaf) for leaf in every]
         places_by_key: dict[Any, list[int]] = {}
         for place, shape in enumerate(shapes):
@@ -239,7 +239,9 @@ class _Grids:
         if len(surfaces) == 1:
             return surfaces[0]
         parts = [*map(part_of, surfaces, names)]
-        lost = dict.fromkeys(name for surface in surfaces for name in surface.dropped)
+        lost: dict[str, None] = {}
+        for surface in surfaces:
+            lost |= dict.fromkeys(surface.dropped)
         return replace(joined_parts(parts, None, self._limits, size), dropped=tuple(lost))
 
     def _leaves(self, grid: Any) -> list[Any]:
@@ -257,7 +259,7 @@ class _Grids:
             raise FormatError(f"this XDMF has grids of the kind {kind} in others; {_WAY}")
         if kind == "Uniform":
             return [grid]
-        return [leaf for child in grid.findall("Grid") for leaf in self._leaves(child)]
+        return list(chain.from_iterable(map(self._leaves, grid.findall("Grid"))))
 
     def _shape(self, grid: Any) -> tuple[Any, list[tuple[str, Any]]]:
         """The points of a grid, and its cells."""

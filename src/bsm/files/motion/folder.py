@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 from functools import lru_cache, partial
-from itertools import pairwise
+from itertools import chain, pairwise
 from pathlib import Path
 from typing import Any
 
@@ -227,7 +227,7 @@ def _require_clear(ordered: Sequence[str]) -> None:
     falls = _first_fall([*map(float, words)])
     if falls and len({number.partition(".")[0] for number in words}) > 1:
         place, reason = falls, "as decimal numbers they are the other way round"
-    units = [unit for stem in stems for unit in _UNITS.findall(stem)]
+    units = list(chain.from_iterable(map(_UNITS.findall, stems)))
     other_unit = _first_place(unit != units[0] for unit in units)
     if other_unit:
         place, reason = other_unit, "their units differ"
@@ -468,7 +468,8 @@ def listed(path: str, kind: str, limits: Limits) -> tuple[list[str], list[float]
     names: list[str] = []
     for _, name in sorted(rows, key=lambda row: row[0]):
         with about(name):
-            names.append(str(file_beside(Path(path).resolve().parent, name)))
+            file = file_beside(Path(path).resolve().parent, name)
+            names.append(str(file))
     return names, [*counts], [*counts.values()]
 
 
@@ -511,6 +512,13 @@ def _number_at(number: int, place: re.Match[str]) -> str:
     return f"{number:{place[1]}{place[2]}d}"
 
 
+def _written_frame(mesh: TriangleMesh, kind: str, target: Path) -> Written:
+    contents_of_nothing = FORMATS[kind].empty
+    if is_empty(mesh.attributes) and contents_of_nothing is not None:
+        return Written(contents_of_nothing)
+    return written_mesh(mesh, kind, target)
+
+
 @contextmanager
 def write_files(
     path: str, kind: str, *, overwrite: bool
@@ -529,11 +537,7 @@ def write_files(
 
     def write(mesh: TriangleMesh, number: int) -> tuple[str, ...]:
         target = pattern.parent / _PLACE.sub(partial(_number_at, number), pattern.name)
-        contents_of_nothing = FORMATS[kind].empty
-        if is_empty(mesh.attributes) and contents_of_nothing is not None:
-            file = Written(contents_of_nothing)
-        else:
-            file = written_mesh(mesh, kind, target)
+        file = _written_frame(mesh, kind, target)
         # Only files that are new are removed after an error: a frame of before, half overwritten or not, is the user's.
         was_there = target.exists()
         if not was_there:

@@ -269,5 +269,6 @@ def describe_runs(starts: Sequence[int]) -> str:
     words = ", ".join(map(str, starts[:MOST_LISTED]))
     if len(starts) > MOST_LISTED:
         words += f" and {len(starts) - MOST_LISTED} more"
-    plural = "s" if len(starts) > 1 else ""
-    return f"connectivity changes at frame{plural} {words}"
+    if len(starts) > 1:
+        return f"connectivity changes at frames {words}"
+    return f"connectivity changes at frame {words}"

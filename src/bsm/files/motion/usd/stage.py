@@ -139,7 +139,9 @@ class Stage:
             **material_metadata,
         }
         metadata |= self._own_metadata()
-        losses = [name for part in self.parts for name in part.shape.left_out]
+        losses: list[str] = []
+        for part in self.parts:
+            losses += part.shape.left_out
         losses += [*self._materials.unread, *material_losses]
         notes = [*joined.notes, *missing_images, *self._notes, *face_sets.notes()]
         dropped = tuple(dict.fromkeys(losses))
@@ -180,7 +182,9 @@ class Stage:
             part.prim, len(shape.counts), shape.time
         )
         columns += face_sets.columns(unbound_sets, len(materials))
-        name = part.name if len(self.parts) > 1 else part.prim.GetName()
+        name = part.name
+        if len(self.parts) == 1:
+            name = part.prim.GetName()
         points = part.points(code, cache)
         placed_part = polygons.Part(
             points, shape.counts, shape.corners[order], columns, materials, name

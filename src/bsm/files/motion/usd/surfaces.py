@@ -49,7 +49,9 @@ def write_materials(
     image_files: dict[int, str] = {}
     if folder is not None:
         image_files = _write_images(frame.metadata, folder)
-    written = {f"image.{number}.{field}" for number in image_files for field in ("name", "data")}
+    written: set[str] = set()
+    for number in image_files:
+        written |= {f"image.{number}.name", f"image.{number}.data"}
     # USD says it of a mesh and not of a material, so one single-sided material keeps it from being said.
     if materials and all(words.get("doubleSided") for words in materials.values()):
         mesh.CreateDoubleSidedAttr(True)
@@ -156,8 +158,12 @@ class _Surface:
         if look.mode == "MASK":
             required_inputs.add("opacityThreshold")
         for name, (kind, number_field, texture_field) in INPUTS.items():
-            texture = getattr(look, texture_field) if texture_field else None
-            value = getattr(look, number_field) if number_field else None
+            texture: Texture | None = None
+            value: Any = None
+            if texture_field:
+                texture = getattr(look, texture_field)
+            if number_field:
+                value = getattr(look, number_field)
             if texture is not None and self._images.get(texture.image) is not None:
                 self._write_texture(name, kind, texture, value)
                 continue

@@ -109,8 +109,10 @@ class Traversal:
         if purpose == geom.Tokens.proxy and self._has_render_meshes:
             return "stand-ins (purpose proxy)"
         times = visibility_times(geom, prim)
-        times_read = times if self._runs else []
-        if any(self.is_visible(prim, time) for time in times_read or [self._first.GetValue()]):
+        times_read = [self._first.GetValue()]
+        if self._runs and times:
+            times_read = times
+        if any(self.is_visible(prim, time) for time in times_read):
             if times:
                 self.blinking.append(str(prim.GetPath()))
             return ""
