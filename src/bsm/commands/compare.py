@@ -6,7 +6,7 @@ import json
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import asdict, replace
-from itertools import pairwise
+from itertools import pairwise, repeat
 from pathlib import Path
 from typing import Any
 
@@ -97,18 +97,14 @@ def _compare_trees(args: argparse.Namespace, console: Console) -> int:
         refuse_to_overwrite(args.report, args.force)
     paths = files_in([args.original], (*MESH_SUFFIXES, *STREAM_SUFFIXES))
     rows: list[Facts] = []
-    for path in (str(path) for _, path in paths):
+    for _, original_path in paths:
+        path = str(original_path)
         facts: Facts = {"input": path}
         try:
             facts["output"] = counterpart = _same_name(path, args)
-            original, decoded = (
-                _load(name, args, console).without_isolated_vertices()[0]
-                for name in (path, counterpart)
-            )
-            facts |= {
-                f"{way}_bytes": size_of(name)
-                for way, name in (("input", path), ("output", counterpart))
-            }
+            original = _load_used(path, args, console)
+            decoded = _load_used(counterpart, args, console)
+            facts |= {"input_bytes": size_of(path), "output_bytes": size_of(counterpart)}
             if args.look:
                 facts["look"] = LookMetric(original).compare(decoded).distance
             images = compare_images(original.metadata, decoded.metadata)
@@ -158,21 +154,17 @@ def _same_name(path: str, args: argparse.Namespace) -> str:
     """The file in B that has the name of one in A, whatever its format."""
     place = Path(args.decoded, Path(path).relative_to(args.original))
     endings = (*STREAM_SUFFIXES, *MESH_SUFFIXES)
-    longer = (Path(f"{place}{end}") for end in endings)
+    bare = place.with_suffix("")
     # An output may keep the suffix of its input (part.obj.bsm) or replace it (part.bsm). The name as it stands comes
     # first.
-    candidates = [
-        place,
-        *longer,
-        place.with_suffix(""),
-        *(place.with_suffix(end) for end in endings),
-    ]
-    match = next((name for name in candidates if name.is_file()), None)
-    if match is None:
-        raise FileNotFoundError(
-            errno.ENOENT, "no file of this name, in any format", str(place.with_suffix(""))
-        )
-    return str(match)
+    candidates = [place]
+    candidates += [Path(f"{place}{end}") for end in endings]
+    candidates.append(bare)
+    candidates += map(place.with_suffix, endings)
+    for candidate in candidates:
+        if candidate.is_file():
+            return str(candidate)
+    raise FileNotFoundError(errno.ENOENT, "no file of this name, in any format", str(bare))
 
 
 def _compare_one(args: argparse.Namespace, console: Console) -> None:
@@ -185,7 +177,7 @@ def _compare_one(args: argparse.Namespace, console: Console) -> None:
             error.message += "; to compare the files of two folders by their names, add -r"
         raise
     with console.progress("reading") as progress:
-        pair_as_read = [_load(path, args, console) for path in (args.original, args.decoded)]
+        pair_as_read = (_load(args.original, args, console), _load(args.decoded, args, console))
         # Only a note: the numbers are right as they are, but they may not be what the user takes them for.
         for name, normal_form in (("up", str.lower), ("unit", metres)):
             ours, theirs = (str(mesh.metadata.get(name, "")) for mesh in pair_as_read)
@@ -300,7 +292,9 @@ def _errors_of(original: TriangleMesh, decoded: TriangleMesh) -> Panel:
 def explained(numbers: dict[str, Any]) -> list[str]:
     lines = []
     for name, value in numbers.items():
-        number = "-inf" if value is None else f"{value:.6g}"
+        number = "-inf"
+        if value is not None:
+            number = f"{value:.6g}"
         lines.append(f"{name:<18} {number:<12} {EXPLAINED.get(name, '')}".rstrip())
     return lines
 
@@ -378,20 +372,26 @@ def _load(path: str, args: argparse.Namespace, console: Console) -> TriangleMesh
     return source.mesh
 
 
+def _load_used(path: str, args: argparse.Namespace, console: Console) -> TriangleMesh:
+    """A mesh file or a stream, without its isolated vertices."""
+    return _load(path, args, console).without_isolated_vertices()[0]
+
+
 def _compare_sequences(args: argparse.Namespace, console: Console) -> bool:
     paths, changing = (args.original, args.decoded), Wanted(runs=True)
     with console.progress("reading") as progress:
-        sides = [
-            _load_sequence(path, args, changing if names_many(path) else None) for path in paths
-        ]
+        sides = []
+        for path in paths:
+            request = None
+            if names_many(path):
+                request = changing
+            sides.append(_load_sequence(path, args, request))
         if sides == [None, None]:
             return False
-        # An animated glTF can be meant either way. What stands beside it decides.
-        # An animated glTF is a sequence where the other one is.
-        sides = [
-            _load_sequence(path, args, changing) if side is None else side
-            for path, side in zip(paths, sides)
-        ]
+        # An animated glTF can be meant either way. It is a sequence where the other one is.
+        for number, path in enumerate(paths):
+            if sides[number] is None:
+                sides[number] = _load_sequence(path, args, changing)
         original, decoded = sides
         if original is None or decoded is None:
             moving, still = paths
@@ -430,11 +430,8 @@ def _runs_of(original: Frames, decoded: Frames) -> Iterator[tuple[Frames, Frames
 def _load_sequence(path: str, args: argparse.Namespace, request: Wanted | None) -> Frames | None:
     """The frames and faces of a file, folder or stream; None if it is a mesh."""
     with about(path):
-        scene = Path(path).is_file() and is_scene(path)
-        # Looked up by name: the module takes long to load, and few inputs are scenes.
-        moving = by_name("bsm.gltf.document", "read_document")(path).moving if scene else None
-        if moving or (Path(path).is_file() and is_stream(path)):
-            pieces = iter([moving]) if moving else read_chunks(path)
+        pieces = _pieces_of_stream(path)
+        if pieces is not None:
             header, chunks = peek_header(pieces)
             if header is None or not header.gop_frames:
                 return None
@@ -448,6 +445,20 @@ def _load_sequence(path: str, args: argparse.Namespace, request: Wanted | None) 
         if source.meshes is None:
             return [(frame, source.faces, source.attributes) for frame in source.frames]
         return [(mesh.positions, mesh.faces, mesh.attributes) for mesh in source.meshes]
+
+
+def _pieces_of_stream(path: str) -> Iterator[bytes] | None:
+    """The bytes of a stream, or of that in a scene that moves; None if there is none."""
+    if not Path(path).is_file():
+        return None
+    if is_scene(path):
+        # Looked up by name: the module takes long to load, and few inputs are scenes.
+        moving = by_name("bsm.gltf.document", "read_document")(path).moving
+        if moving:
+            return iter([moving])
+    if is_stream(path):
+        return read_chunks(path)
+    return None
 
 
 def _compared_sequences(
@@ -513,11 +524,9 @@ def _compared_sequences(
 def _looks(runs: Runs, progress: Callable[[int, int], None]) -> dict[str, float]:
     """Return the look distances of the worst frame and the mean of all visible frames; see `codec.look`."""
     distances = []
-    pairs = [
-        (before, after, faces)
-        for first, second, faces in runs
-        for before, after in zip(first, second, strict=True)
-    ]
+    pairs: list[tuple[Positions, Positions, Faces]] = []
+    for first, second, faces in runs:
+        pairs += zip(first, second, repeat(faces, len(first)), strict=True)
     for number, (before, after, faces) in enumerate(pairs):
         progress(number, len(pairs))
         # A frame may have collapsed to nothing visible, as at the end of an explosion. The others still count.
@@ -525,9 +534,10 @@ def _looks(runs: Runs, progress: Callable[[int, int], None]) -> dict[str, float]
             distances.append(LookMetric(TriangleMesh(before, faces)).look(after))
     if not distances:
         raise MeshError("the sequence cannot be looked at: its faces have no area in any frame")
+    moving = [look.moving for look in distances]
     return {
-        "look_worst": max(look.moving for look in distances),
-        "look_mean": float(np.mean([look.moving for look in distances])),
+        "look_worst": max(moving),
+        "look_mean": float(np.mean(moving)),
         "unlike_worst": max(look.unlike for look in distances),
     }
 
@@ -541,7 +551,9 @@ def _write_map(
 ) -> None:
     """Write the original with the distance of each vertex from `positions`, shape (n, 3), as colors."""
     path, overwrite = args.map, args.force
-    kind = "png" if Path(path).suffix.lower() == ".png" else format_of_name(path)
+    kind = format_of_name(path)
+    if Path(path).suffix.lower() == ".png":
+        kind = "png"
     if kind not in ("png", *COLORED):
         raise OptionError(
             f"{path}: a map of distances is a picture (.png) or a mesh (.{', .'.join(COLORED)})"

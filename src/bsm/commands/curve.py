@@ -4,7 +4,7 @@ import argparse
 import csv
 import importlib.util
 import io
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -92,14 +92,18 @@ def run(args: argparse.Namespace, console: Console) -> None:
 
 def _run(args: argparse.Namespace, folder: Path, console: Console, save: Save) -> None:
     # A run takes minutes to hours. It must not end at the last step, for want of a package.
-    _refuse_missing(args.codecs if args.meshes else "ours")
+    codecs = "ours"
+    if args.meshes:
+        codecs = args.codecs
+    _refuse_missing(codecs)
     # All meshes are read before the first is measured, for the same reason, and so are the points of others.
     # Rates are those of the shape.
     chosen = [(Path(path).stem, read_mesh(path).mesh.bare) for path in args.meshes]
     facts = {result["mesh"]["name"]: result["mesh"] for result in rates.read_results(folder)}
     facts |= {name: rates.mesh_facts(mesh, name) for name, mesh in chosen}
-    for rival in (rival for path in args.points for rival in rates.read_points(path, facts)):
-        rates.write_result(rival, folder)
+    for path in args.points:
+        for rival in rates.read_points(path, facts):
+            rates.write_result(rival, folder)
     for name, mesh in chosen:
         measure = partial(_measure, mesh, name, args.repeat, folder, console)
         curves, ours = _chosen(args.codecs, len(mesh.positions), args.blocks)
@@ -107,25 +111,15 @@ def _run(args: argparse.Namespace, folder: Path, console: Console, save: Save) -
             measure(curve)
         if ours:
             # Last, since it is asked for the errors of the others' points.
-            all_results = rates.read_results(folder)
-            measure(
-                rates.our_curve(
-                    r for r in all_results if r["mesh"]["name"] == name and r["codec"] != "ours"
-                )
-            )
+            rivals = _rivals(rates.read_results(folder), name)
+            measure(rates.our_curve(rivals))
     results = list(rates.read_results(folder))
     if not results:
         raise OptionError(f"{folder} contains no results; name meshes to measure")
-    draco = {result["mesh"]["name"]: result for result in results if result["codec"] == "draco"}
-    tested = [
-        result
-        for result in results
-        if result["codec"] != "draco" and result["mesh"]["name"] in draco
-    ]
-    comparisons = [rates.compare_curves(draco[result["mesh"]["name"]], result) for result in tested]
-    tables = {"points": _measured(results)} | (
-        {"draco": _compared(comparisons)} if comparisons else {}
-    )
+    comparisons = _comparisons(results)
+    tables = {"points": _measured(results)}
+    if comparisons:
+        tables["draco"] = _compared(comparisons)
     if args.json:
         print_json({"comparisons": comparisons})
     else:
@@ -137,6 +131,24 @@ def _run(args: argparse.Namespace, folder: Path, console: Console, save: Save) -
                 left_out = f"its BD-rate by {measure} leaves out {count} of its points"
                 console.note(f"{place}: {left_out}, which are larger and worse than another one")
     save(tables, rates.draw_all(results, args.codecs.split(",")))
+
+
+def _rivals(results: Iterable[dict[str, Any]], name: str) -> Iterator[dict[str, Any]]:
+    """Yield the results of other codecs for a mesh."""
+    for result in results:
+        if result["mesh"]["name"] == name and result["codec"] != "ours":
+            yield result
+
+
+def _comparisons(results: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
+    """Compare each curve with Draco's for the same mesh, where there is one."""
+    draco = {result["mesh"]["name"]: result for result in results if result["codec"] == "draco"}
+    comparisons = []
+    for result in results:
+        name = result["mesh"]["name"]
+        if result["codec"] != "draco" and name in draco:
+            comparisons.append(rates.compare_curves(draco[name], result))
+    return comparisons
 
 
 def _measure(
@@ -167,67 +179,73 @@ def _save(
     for name, (columns, rows) in tables.items():
         file = io.StringIO()
         csv.writer(file, lineterminator="\n").writerows([columns, *rows])
-        texts = {"csv": file.getvalue()} if args.csv else {}
-        texts |= {"tex": rates.table(columns, rows, "latex_booktabs") + "\n"} if args.latex else {}
+        texts = {}
+        if args.csv:
+            texts["csv"] = file.getvalue()
+        if args.latex:
+            texts["tex"] = rates.table(columns, rows, "latex_booktabs") + "\n"
         for suffix, text in texts.items():
             write_output(folder / f"{name}.{suffix}", text.encode(), overwrite=True, follow=False)
             console.note(str(folder / f"{name}.{suffix}"))
     console.note(f"{folder}: results as JSON")
+    formats = [*rates.FORMATS]
+    if args.pdf:
+        formats.append("pdf")
     for picture in pictures:
-        for path in picture.save(folder, (*rates.FORMATS, *(("pdf",) if args.pdf else ()))):
+        for path in picture.save(folder, formats):
             console.note(str(path))
 
 
 def _chosen(names: str, vertices: int, blocks: int | None) -> tuple[list[rates.Curve], bool]:
     """The curves of other codecs, and whether ours is asked for, too."""
-    # 500 vertices are the blocks of the paper's figures.
-    paper = rates.paper_curves(round(vertices / blocks) if blocks else 500)
-    groups = {"ours": (), "paper": paper, "draco": (rates.DRACO,)} | {
-        line.name: (line,) for line in paper
+    block_size = 500  # vertices, as in the blocks of the paper's figures
+    if blocks:
+        block_size = round(vertices / blocks)
+    paper = rates.paper_curves(block_size)
+    groups: dict[str, tuple[rates.Curve, ...]] = {
+        "ours": (),
+        "paper": paper,
+        "draco": (rates.DRACO,),
     }
+    for line in paper:
+        groups[line.name] = (line,)
     chosen = names.split(",")
     unknown = [name for name in chosen if name not in groups]
     if unknown:
         raise OptionError(f"unknown codec {', '.join(unknown)} ({', '.join(groups)})")
-    return [curve for name in chosen for curve in groups[name]], "ours" in chosen
+    curves: list[rates.Curve] = []
+    for name in chosen:
+        curves += groups[name]
+    return curves, "ours" in chosen
 
 
 def _measured(results: Sequence[dict[str, Any]]) -> Table:
     def setting(result: dict[str, Any], point: dict[str, Any]) -> str:
         target = point["settings"].get("target")
-        suffix = f", {target['value']:.4g}{rates.UNITS[target['kind']]}" if target else ""
-        return f"{result['codec']}{suffix}"
+        if not target:
+            return f"{result['codec']}"
+        return f"{result['codec']}, {target['value']:.4g}{rates.UNITS[target['kind']]}"
 
     digits = {"bpv_total": 3, "bpv_paper": 2, "nmsve_db": 2, "nmsve_paper_db": 2, "theta_deg": 2}
     digits |= {"encode_seconds": 3, "decode_seconds": 3}
-    rows = [
-        (
-            result["mesh"]["name"],
-            setting(result, point),
-            *(rates.number(point.get(name), n) for name, n in digits.items()),
-        )
-        for result in results
-        for point in result["points"]
-    ]
+    rows = []
+    for result in results:
+        for point in result["points"]:
+            numbers = [rates.number(point.get(name), count) for name, count in digits.items()]
+            rows.append((result["mesh"]["name"], setting(result, point), *numbers))
     columns = ("mesh", "codec", "bpv, file", "bpv, paper", "NMSVE, dB", "as printed, dB", "theta")
     return (*columns, "encode, s", "decode, s"), rows
 
 
 def _compared(comparisons: Sequence[dict[str, Any]]) -> Table:
-    rows = [
-        (
-            *(
-                row["mesh"],
-                row["codec"],
-                *(rates.number(row["bytes_at_theta"][angle], 3) for angle in ("7", "10")),
-            ),
-            *(
-                "-" if (rate := row["bd_rate_percent"][name]) is None else f"{rate:+.1f} %"
-                for name in rates.UNITS
-            ),
-        )
-        for row in comparisons
-    ]
+    rows = []
+    for row in comparisons:
+        cells = [row["mesh"], row["codec"]]
+        for angle in ("7", "10"):
+            cells += [rates.number(row["bytes_at_theta"][angle], 3)]
+        for name in rates.UNITS:
+            cells += [_signed_percent(row["bd_rate_percent"][name])]
+        rows.append(tuple(cells))
     return (
         "mesh",
         "codec",
@@ -236,6 +254,12 @@ def _compared(comparisons: Sequence[dict[str, Any]]) -> Table:
         "BD-rate, theta",
         "BD-rate, NMSVE",
     ), rows
+
+
+def _signed_percent(rate: float | None) -> str:
+    if rate is None:
+        return "-"
+    return f"{rate:+.1f} %"
 
 
 def _words(tables: dict[str, Table]) -> str:

@@ -2,7 +2,7 @@
 
 import argparse
 import time
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from itertools import chain, islice, takewhile
@@ -85,15 +85,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace, console: Console) -> int:
     suffix = f".{args.format or 'ply'}"
-    for name in () if args.recursive else args.inputs:
-        with about(name):
-            # All inputs are looked at before the first is decoded: with a hundred files, a wrong one should not come up
-            # in between.
-            if not is_scene(name):
-                refuse_mesh(name)
+    # All inputs are looked at before the first is decoded: with a hundred files, a wrong one should not come up in
+    # between.
+    if not args.recursive:
+        _refuse_meshes(args.inputs)
     if args.recursive and args.format == "same":
         jobs = list(map(_as_source, plan_trees(args.inputs, args.output, ".ply", STREAM_SUFFIXES)))
-        refuse_collisions((job.input for job in jobs), (job.output for job in jobs))
+        outputs = [job.output for job in jobs]
+        refuse_collisions((job.input for job in jobs), outputs)
         copy_descriptions(args.inputs, args.output, console, overwrite=args.force)
         args.format = None
     elif args.recursive:
@@ -115,6 +114,13 @@ def run(args: argparse.Namespace, console: Console) -> int:
     return run_jobs(asked(Batch, args), job, console, decode_one, jobs)
 
 
+def _refuse_meshes(names: Iterable[str]) -> None:
+    for name in names:
+        with about(name):
+            if not is_scene(name):
+                refuse_mesh(name)
+
+
 def _as_source(job: Job) -> Job:
     """Give the output the name of the file that a stream was made of; a format that is not written becomes another."""
     name = ""
@@ -130,8 +136,10 @@ def _as_source(job: Job) -> Job:
     ):
         return job
     # A format that cannot be written is replaced by one that loses least of its contents.
-    suffix = "glb" if Path(name).suffix.lower() == ".gltf" else "vtp"  # which holds fields
     if not format_of_name(name):
+        suffix = "vtp"  # which holds fields
+        if Path(name).suffix.lower() == ".gltf":
+            suffix = "glb"
         name = f"{name}.{suffix}"
     return replace(job, output=no_link(str(Path(job.output).with_name(name))))
 
@@ -177,9 +185,16 @@ def decode_one(args: DecodeJob, console: Console) -> Facts:
             console.note(f"{args.input}: {note}")
     counts = {"vertices": len(mesh.positions), "faces": len(mesh.faces)}
     with console.progress("writing"):
-        file = written_mesh(mesh, kind, "mesh" if output == "-" else output)
+        file = written_mesh(mesh, kind, _name_of_mesh(output))
         _note_unheard(args, console, mesh.metadata, kind)
         return counts | _saved(args, console, output, kind, file, f"{counted(**counts)}, ", seconds)
+
+
+def _name_of_mesh(output: str) -> str:
+    """The name that the writer of a mesh is given; a pipe has none of its own."""
+    if output == "-":
+        return "mesh"
+    return output
 
 
 def _notes_on_part(args: DecodeJob, header: Header) -> Iterator[str]:
@@ -190,7 +205,9 @@ def _notes_on_part(args: DecodeJob, header: Header) -> Iterator[str]:
             yield f"--blocks {args.blocks}: {fewer}"
         else:
             yield f"the first {args.blocks} of {counted(blocks=header.blocks)}"
-    layers = 2 if header.refinement else 1
+    layers = 1
+    if header.refinement:
+        layers = 2
     if args.layers is not None and (layers == 1 or args.layers > layers):
         yield f"--layers {args.layers}: the stream has {layers}, and all of it was decoded"
 
@@ -207,7 +224,9 @@ def _as_asked(
 ) -> TriangleMesh:
     """A mesh in the requested unit and precision, which says that it was decoded if it is not exact."""
     # A file made of a lossy stream says so. If it is encoded again, errors add up, and the encoder can warn.
-    fields = mesh.metadata if exact else as_decoded(mesh.metadata)
+    fields = mesh.metadata
+    if not exact:
+        fields = as_decoded(fields)
     left_out = {"source_name"}
     if kind != "obj":
         left_out |= set(filter(is_link, fields))
@@ -337,7 +356,10 @@ def _decode_sequence(args: DecodeJob, console: Console, chunks: Iterator[bytes])
                 raise OptionError(
                     f"--permutation is the order of one mesh, but the faces change at frame {number}"
                 )
-            write(frame[order], stream.faces if changed else None)
+            changed_faces = None
+            if changed:
+                changed_faces = stream.faces
+            write(frame[order], changed_faces)
             if expected:
                 progress(count, expected)
     lost, place = shared.left_out, kind
@@ -350,7 +372,9 @@ def _decode_sequence(args: DecodeJob, console: Console, chunks: Iterator[bytes])
         console.note(f"{args.input}: not written to {place}: {', '.join(lost)}")
     _note_unheard(args, console, metadata, kind)
     if kind in CACHES:
-        faces_file = "an OBJ beside each file" if stream.run_starts else mesh_of(output)
+        faces_file = str(mesh_of(output))
+        if stream.run_starts:
+            faces_file = "an OBJ beside each file"
         console.note(f"{args.input}: {kind.upper()} holds no faces; they are in {faces_file}")
     # Files of an earlier, longer run would be read as further frames of this sequence.
     if names_many(output) and (others := len(mesh_files(output)) - count) > 0:
@@ -376,9 +400,10 @@ def _decode_sequence(args: DecodeJob, console: Console, chunks: Iterator[bytes])
 def _opened(
     args: DecodeJob, console: Console, chunks: Iterator[bytes], start: int
 ) -> SequenceStream:
-    return SequenceStream(
-        chunks, console.note if args.tolerant else None, start, as_limits(args.limits)
-    )
+    on_damage = None
+    if args.tolerant:
+        on_damage = console.note
+    return SequenceStream(chunks, on_damage, start, as_limits(args.limits))
 
 
 def _is_of_one_frame(output: str, file_format: str | None) -> bool:
@@ -402,7 +427,9 @@ def _sequence_output(args: DecodeJob) -> str:
         return str(Path(args.output).with_suffix(suffix))
     if args.given is not None and args.many:
         return output_inside(args.given, args.input, suffix)
-    return default_output(args.input, suffix) if args.given is None else str(args.output)
+    if args.given is None:
+        return default_output(args.input, suffix)
+    return str(args.output)
 
 
 def _reordered(mesh: TriangleMesh, permutation: str) -> TriangleMesh:
@@ -439,7 +466,7 @@ def _decode_frame(
     if args.permutation:
         mesh = _reordered(mesh, args.permutation)
     facts = {"frames": 1, "vertices": len(mesh.positions), "faces": len(mesh.faces)}
-    file = written_mesh(mesh, kind, "mesh" if output == "-" else output)
+    file = written_mesh(mesh, kind, _name_of_mesh(output))
     return facts | _saved(
         args, console, output, kind, file, f"frame {number}, ", time.perf_counter() - begin
     )

@@ -57,7 +57,9 @@ def run(args: argparse.Namespace, console: Console) -> None:
     positions = np.empty_like(received.positions)
     # The decoder has its own order of vertices. The picture compares vertex by vertex.
     positions[encoder.vertex_order] = received.positions
-    words = "" if encoder.look is None else f"look {encoder.look:.2f}, "
+    words = ""
+    if encoder.look is not None:
+        words = f"look {encoder.look:.2f}, "
     console.note(
         f"decoded    {words}largest vertex error {100 * error.max_error_relative:.3g} % of the diagonal, mean normal "
         f"error {error.angle_deg:.2f} degrees, {decoding:.2f} s"

@@ -97,13 +97,17 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace, console: Console) -> int:
     meshes_in = {path: separate_meshes(path, args.format) for path in args.inputs}
-    inputs = [name for path in args.inputs for name in (meshes_in[path] or [path])]
+    inputs: list[str] = []
+    for path in args.inputs:
+        inputs += meshes_in[path] or [path]
     if args.output is not None and any(meshes_in.values()) and not Path(args.output).is_dir():
         # A folder of meshes becomes a folder, whether its name ends in / or not.
         # Without the sign, `plan` would take the name for that of a file, and refuse several inputs.
         args.output = args.output.rstrip("/") + "/"
-    beside = "" if args.output else ".denoised"
     # Never onto the input itself: denoising is a judgment, and the original may be needed again.
+    beside = ".denoised"
+    if args.output:
+        beside = ""
     jobs = plan(inputs, args.output, lambda name: beside + _suffix(name), sole_folder=True)
     refuse_two_on_one_pipe(args, jobs[0].output)
     job = asked(DenoiseJob, args, output="", options=options_of(args, "denoise method"))
@@ -123,7 +127,9 @@ def denoise_one(args: DenoiseJob, console: Console) -> Facts:
 
 
 def _suffix(name: str) -> str:
-    usual = "npz" if Path(name).is_dir() else "ply"
+    usual = "ply"
+    if Path(name).is_dir():
+        usual = "npz"
     return f".{format_of_name(name) or usual}"
 
 
@@ -201,9 +207,9 @@ def _movement(moves: Any, unit: str) -> tuple[str, Facts]:
     if not touched:
         return "no vertex", facts
     facts["mean"] = mean = float(moves[moves > 0.0].mean())
-    who = (
-        "all vertices" if touched == len(moves) else f"{touched} of {counted(vertices=len(moves))}"
-    )
+    who = "all vertices"
+    if touched < len(moves):
+        who = f"{touched} of {counted(vertices=len(moves))}"
     return f"{who}, by {length(mean, unit)} on average, {length(farthest, unit)} at most", facts
 
 
@@ -227,7 +233,10 @@ def _kind_of_output(args: DenoiseJob) -> str:
 def _denoise_sequence(
     args: DenoiseJob, console: Console, source: Frames, options: "DenoiseOptions | None"
 ) -> dict[str, Any]:
-    kind = sequence_kind(args.output, args.format if args.output == "-" else None)
+    format_of_pipe = None
+    if args.output == "-":
+        format_of_pipe = args.format
+    kind = sequence_kind(args.output, format_of_pipe)
 
     from bsm.codec.denoise import FrameDenoiser
 
@@ -288,9 +297,10 @@ def _found(
     # Doing nothing is a result. It is told with its reason, and with the way to insist.
     if not choice.steps:
         if not choice.outliers:
-            line = "steadied   " if choice.kind == "unsteady" else "unchanged  "
-            yield f"{line}{choice.reason}"
-            if choice.kind != "unsteady":
+            if choice.kind == "unsteady":
+                yield f"steadied   {choice.reason}"
+            else:
+                yield f"unchanged  {choice.reason}"
                 ask = "--hand-over none --iterations 5 --force"
                 yield f"           if you see noise, choose a filter: bsm denoise IN {ask}"
         return
@@ -303,9 +313,11 @@ def _found(
         line += f"; vertices about {choice.untreated:.2f} -> {choice.expected:.2f} edges off"
     elif choice.kind != "unsteady":
         least, most = round(choice.expected), round(choice.at_most)
-        degrees = f"{least} to {most}" if least < most else f"{least}"
+        degrees = f"{least}"
         if most < 2:
             degrees = "below 2"
+        elif least < most:
+            degrees = f"{least} to {most}"
         line += f"; normals about {choice.untreated:.0f} -> {degrees} degrees off"
         if least < most:
             line += ", more for finer detail"

@@ -70,7 +70,8 @@ def run(args: argparse.Namespace, console: Console) -> int:
     # The flag stands for a pipe of frames, too, and argparse takes the input behind it for its value.
     if piped and args.frames:
         args.inputs.insert(0, args.frames)
-    args.frames = None if piped else args.frames
+    if piped:
+        args.frames = None
     _refuse_other_formats(args.inputs, args.output)
     # The option of other programs chooses the format of the output. Here it is that of the input.
     if args.format in GLTF and format_of_name(args.inputs[0]) not in (None, "glb"):
@@ -85,10 +86,16 @@ def run(args: argparse.Namespace, console: Console) -> int:
     jobs, members = _planned(args, console)
     refuse_two_on_one_pipe(args, jobs[0].output)
     many, options = asked(Batch, args), keywords_of(args)
+    threads = None
     # Processes side by side use all cores already. More threads in each would only take turns.
-    threads = options.pop("threads", 1 if many.side_by_side and len(jobs) > 1 else None)
-    metadata = {"up": args.up} if args.up else {}
-    for name, sign, value in (text.partition("=") for text in args.meta):
+    if many.side_by_side and len(jobs) > 1:
+        threads = 1
+    threads = options.pop("threads", threads)
+    metadata = {}
+    if args.up:
+        metadata["up"] = args.up
+    for text in args.meta:
+        name, sign, value = text.partition("=")
         if not name or not sign:
             raise OptionError(f"--meta takes NAME=TEXT, not {name!r}")
         if name.lower() in _MEANT:
@@ -113,13 +120,12 @@ def run(args: argparse.Namespace, console: Console) -> int:
         # Decoders of images are a usual way into a process. Bytes of strangers never reach Pillow.
         if args.untrusted:
             raise OptionError("--images lets Pillow read images; leave it out with --untrusted")
-    more["format"] = "npy" if piped else args.format
+    more["format"] = args.format
+    if piped:
+        more["format"] = "npy"
     job = asked(EncodeJob, args, **more)
-    others = (path for folder in args.inputs for path in Path(folder).rglob("*") if args.recursive)
     # Without any other file in the folders there can be no shared image, and the meshes need not be read twice.
-    if args.images is None and any(
-        path.suffix.lower() not in MESH_SUFFIXES and path.is_file() for path in others
-    ):
+    if args.images is None and args.recursive and _has_other_files(args.inputs):
         job = replace(job, shared=shared_images(many, job, console, jobs))
     if job.shared:
         once = f"{counted(images=len(job.shared))} of several meshes: once in the folder images"
@@ -127,6 +133,15 @@ def run(args: argparse.Namespace, console: Console) -> int:
     if args.recursive and not args.dry_run:
         copy_descriptions(args.inputs, args.output, console, overwrite=args.force)
     return run_jobs(many, job, console, encode_one, jobs)
+
+
+def _has_other_files(folders: Sequence[str]) -> bool:
+    """Return whether folders have files that are no meshes."""
+    for folder in folders:
+        for path in Path(folder).rglob("*"):
+            if path.suffix.lower() not in MESH_SUFFIXES and path.is_file():
+                return True
+    return False
 
 
 def _planned(args: argparse.Namespace, console: Console) -> tuple[list[Job], tuple[str, ...]]:
@@ -165,18 +180,25 @@ def _refuse_other_formats(inputs: Sequence[str], output: str | None) -> None:
     suffix = Path(output or "").suffix[1:].lower()
     if output is None or output.endswith("/") or suffix not in _OTHERS or Path(output).is_dir():
         return
-    stream, scene = (shlex.quote(str(Path(output).with_suffix(end))) for end in (".bsm", ".glb"))
-    names = shlex.join(inputs if len(inputs) < 4 else [inputs[0], "..."])
+    stream = shlex.quote(str(Path(output).with_suffix(".bsm")))
+    scene = shlex.quote(str(Path(output).with_suffix(".glb")))
+    if len(inputs) < 4:
+        names = shlex.join(inputs)
+    else:
+        names = shlex.join([inputs[0], "..."])
     moving = (
         len(inputs) > 1
         or Path(inputs[0]).is_dir()
         or Path(inputs[0]).suffix[1:].lower() in (*CACHES, "npz")
     )
+    formats = WRITTEN_FORMATS
+    if moving:
+        formats = SEQUENCE_FORMATS
     advice = f"bsm encode {names} -o {stream}"
-    if suffix in GLTF:
-        advice = (
-            f"{advice}; bsm glb {stream} -o {scene}" if moving else f"bsm glb {names} -o {scene}"
-        )
-    elif suffix in (SEQUENCE_FORMATS if moving else WRITTEN_FORMATS):
+    if suffix in GLTF and not moving:
+        advice = f"bsm glb {names} -o {scene}"
+    elif suffix in GLTF:
+        advice += f"; bsm glb {stream} -o {scene}"
+    elif suffix in formats:
         advice += f"; then bsm decode {stream} -o {shlex.quote(output)}"
     raise OptionError(f"{output}: encode writes streams, .bsm. Run: {advice}")

@@ -5,7 +5,6 @@ import csv
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, fields
-from itertools import accumulate, groupby
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -36,18 +35,21 @@ class Flag:
         return _TYPES.get(self.kind, str)(text)
 
     def add(self, group: argparse._ActionsContainer) -> None:
-        how: dict[str, Any] = {
-            **_ACTIONS.get(self.kind, {"type": _TYPES.get(self.kind)} if self.value else {})
-        }
-        how |= {"choices": self.value.split("|")} if "|" in self.value else {}
+        how: dict[str, Any] = {}
+        if self.kind in _ACTIONS:
+            how |= _ACTIONS[self.kind]
+        elif self.value:
+            how["type"] = _TYPES.get(self.kind)
+        if "|" in self.value:
+            how["choices"] = self.value.split("|")
         if self.default == "required":
-            how |= {"required": True}
+            how["required"] = True
         elif self.default:
-            how |= {"default": self.parse(self.default)}
+            how["default"] = self.parse(self.default)
         elif self.group in UNSET:
             # Without a default in the namespace, an option that was not given differs from one that was given its
             # default. Presets need to know which.
-            how |= {"default": argparse.SUPPRESS}
+            how["default"] = argparse.SUPPRESS
         adder(group)(self.names, self.value, self.help, **how)
 
 
@@ -56,10 +58,12 @@ def adder(parser: argparse._ActionsContainer) -> Callable[..., argparse.Action]:
 
     def add(names: str, value: str, about: str, **more: Any) -> argparse.Action:
         # A switch has no value, and argparse refuses a metavar for it.
-        plain = (
-            {"metavar": value} if value else {} if "choices" in more else {"action": "store_true"}
-        )
-        return parser.add_argument(*names.split(), help=about, **{**plain, **more})
+        how: dict[str, Any] = {}
+        if value:
+            how["metavar"] = value
+        elif "choices" not in more:
+            how["action"] = "store_true"
+        return parser.add_argument(*names.split(), help=about, **{**how, **more})
 
     return add
 
@@ -69,9 +73,10 @@ class HelpAll(argparse.Action):
     def __call__(self, parser: argparse.ArgumentParser, *_: Any) -> None:
         parser.print_help()
         print("\nsettings, --set NAME=VALUE:")
-        width = max(len(f"{setting.field}={setting.value}") for setting in FLAGS["settings"])
-        for setting in FLAGS["settings"]:
-            print(f"  {f'{setting.field}={setting.value}':{width}}  {setting.help}")
+        texts = [f"{setting.field}={setting.value}" for setting in FLAGS["settings"]]
+        width = max(map(len, texts))
+        for text, setting in zip(texts, FLAGS["settings"]):
+            print(f"  {text:{width}}  {setting.help}")
         parser.exit()
 
 
@@ -205,26 +210,38 @@ def unit(text: str) -> str:
     return text
 
 
-_TYPES: dict[str, Callable[[str], Any]] = {str(count): numbers(count) for count in (2, 3, 6)} | {
-    **{
-        "int": whole_number,
-        "float": number,
-        "blocks": number_of_blocks,
-        "length": number_or_length,
-        "yes": lambda text: text == "yes",
-    },
-    **{"unit": unit, "count": within(0), "positive": within(1), "port": within(0, 65535)},
+_TYPES: dict[str, Callable[[str], Any]] = {
+    "2": numbers(2),
+    "3": numbers(3),
+    "6": numbers(6),
+    "int": whole_number,
+    "float": number,
+    "blocks": number_of_blocks,
+    "length": number_or_length,
+    "yes": lambda text: text == "yes",
+    "unit": unit,
+    "count": within(0),
+    "positive": within(1),
+    "port": within(0, 65535),
 }
 _ACTIONS: dict[str, dict[str, Any]] = {
     "onoff": {"action": argparse.BooleanOptionalAction},
     "list": {"action": "append", "default": []},
 }
-_ROWS = csv.DictReader(Path(__file__).with_name("options.csv").read_text("utf-8").splitlines())
-_FILLED = accumulate(_ROWS, lambda before, row: {**row, "group": row["group"] or before["group"]})
-FLAGS = {
-    group: list(rows)
-    for group, rows in groupby((Flag(**row) for row in _FILLED), lambda flag: flag.group)
-}
+
+
+def _read_flags() -> dict[str, list[Flag]]:
+    """Read options.csv, in which a row without a group is of that before."""
+    table = Path(__file__).with_name("options.csv").read_text("utf-8")
+    flags: dict[str, list[Flag]] = {}
+    group = ""
+    for row in csv.DictReader(table.splitlines()):
+        group = row["group"] or group
+        flags.setdefault(group, []).append(Flag(**{**row, "group": group}))
+    return flags
+
+
+FLAGS = _read_flags()
 """The rows of options.csv, by group; those of the group settings are given by `--set NAME=VALUE`."""
 
 
@@ -234,8 +251,9 @@ UNSET = ("bounds", "targets", "coding", "sequences", "denoise method")
 
 def add_flags(parser: argparse._ActionsContainer, *groups: str) -> None:
     """Add the flags of groups of options.csv."""
-    for flag in (flag for group in groups for flag in FLAGS[group]):
-        flag.add(parser)
+    for group in groups:
+        for flag in FLAGS[group]:
+            flag.add(parser)
 
 
 def add_encode_flags(parser: argparse.ArgumentParser) -> None:
@@ -294,15 +312,21 @@ def add_preset_flags(parser: argparse.ArgumentParser) -> None:
 
 def options_of(args: argparse.Namespace, *groups: str) -> dict[str, Any]:
     """Return the options of groups that are given on a command line."""
-    names = (flag.field for group in groups for flag in FLAGS[group])
-    return {name: getattr(args, name) for name in names if hasattr(args, name)}
+    options = {}
+    for group in groups:
+        for flag in FLAGS[group]:
+            if hasattr(args, flag.field):
+                options[flag.field] = getattr(args, flag.field)
+    return options
 
 
 def keywords_of(args: argparse.Namespace) -> dict[str, Any]:
     """Return the keywords of `bsm.encoding.options` that a command line gives for encoding."""
     keywords = options_of(args, "bounds", "targets", "coding", "sequences")
-    keywords |= {"preset": args.preset} if hasattr(args, "preset") else {}
-    keywords |= {"attributes": dict(args.attributes)} if hasattr(args, "attributes") else {}
+    if hasattr(args, "preset"):
+        keywords["preset"] = args.preset
+    if hasattr(args, "attributes"):
+        keywords["attributes"] = dict(args.attributes)
     return keywords | dict(getattr(args, "set", ()))
 
 
@@ -316,8 +340,10 @@ def add_inputs(parser: argparse.ArgumentParser, about_them: str, output: str | N
     if output:
         add("-o --output", "OUT", output)
     add_flags(parser, "inputs")
-    add_flags(many, "many inputs", *(["many outputs"] if output else []))
-    if not output:
+    add_flags(many, "many inputs")
+    if output:
+        add_flags(many, "many outputs")
+    else:
         parser.set_defaults(output=None, report=None, resume=False)
 
 

@@ -40,7 +40,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace, console: Console) -> None:
-    rule = ImageRule.parse(args.images) if args.images else None
+    rule = None
+    if args.images:
+        rule = ImageRule.parse(args.images)
     if Path(args.output).suffix.lower() != ".glb":
         raise OptionError(f"{args.output}: the output must be a .glb")
     streamed = not Path(args.input).is_dir() and is_stream(args.input)
@@ -51,17 +53,22 @@ def run(args: argparse.Namespace, console: Console) -> None:
     with about(args.input):
         document, received = _document(args.input, console)
     # Chosen by the scene unless the user says so: few primitives are better small, and many are better fast.
-    quick = count_primitives(document) >= MANY if args.quick is None else args.quick
+    quick = args.quick
+    if quick is None:
+        quick = count_primitives(document) >= MANY
     if args.preset == "lossless" and args.quick:
         raise OptionError("--quick rounds positions to a grid; leave out --preset lossless")
     if args.one_grid and args.preset != _USUAL:
         raise OptionError(f"--one-grid shares the grid of --preset {_USUAL}; leave out the preset")
     options = {"preset": args.preset, "attributes": _qualities(args)}
-    options |= {"effort": "quick"} if quick and args.preset != "lossless" else {}
-    beside = Path(args.output).with_suffix(".fallback.bin") if args.fallback else None
+    if quick and args.preset != "lossless":
+        options["effort"] = "quick"
+    beside = name = None
+    if args.fallback:
+        beside = Path(args.output).with_suffix(".fallback.bin")
+        name = beside.name
     refuse_collisions((args.input, *document.files), filter(None, (args.output, str(beside or ""))))
     with console.progress("encoding") as progress:
-        name = beside.name if beside else None
         result = compress(
             document, options, rule, name, progress, jobs=args.jobs, one_grid=args.one_grid
         )
@@ -83,14 +90,8 @@ def run(args: argparse.Namespace, console: Console) -> None:
         "notes": notes,
     }
     more |= {"max_error": result.error[0], "max_error_of_component": result.error[1]}
-    _finish(
-        args,
-        console,
-        words,
-        before,
-        result.data,
-        more | {"images": [image.facts() for image in result.images]},
-    )
+    more["images"] = [image.facts() for image in result.images]
+    _finish(args, console, words, before, result.data, more)
     for note in notes:
         console.note(f"{args.input}: {note}")
 
@@ -132,23 +133,26 @@ def _notes_on(
 ) -> Iterator[str]:
     """Say what else is to be known of a result; `before`: the bytes of the input, `shrinks`: images become smaller."""
     if len(result.data) > before:
-        because = "".join(
-            f", as {name} had made that small: keep it" for name in document.compressed[:1]
-        )
-        yield f"the result is larger than the input{because}"
+        note = "the result is larger than the input"
+        for name in document.compressed[:1]:
+            note += f", as {name} had made that small: keep it"
+        yield note
     if result.error[1] > VISIBLE:
         yield "small components are coarse; use --preset fine or near-lossless"
     yield from changed(list(result.images))
-    yield from (
-        f"{note}{f' ({count} times)' if count > 1 else ''}" for note, count in result.notes.items()
-    )
+    for note, count in result.notes.items():
+        if count > 1:
+            yield f"{note} ({count} times)"
+        else:
+            yield note
     # Often most of the bytes are images, and someone who compares sizes should know it.
-    images = sum(
-        len(document.image(number)[1] or b"") for number in range(len(document.items("images")))
-    )
+    images = 0
+    for number in range(len(document.items("images"))):
+        images += len(document.image(number)[1] or b"")
     if not shrinks and 2 * images > len(result.data):
         yield f"{images} bytes are unchanged images; --images webp:85 makes them smaller"
-    yield from (f"{count} unchanged: {reason}" for reason, count in result.unchanged.items())
+    for reason, count in result.unchanged.items():
+        yield f"{count} unchanged: {reason}"
 
 
 def _document(path: str, console: Console) -> tuple[Document, int | None]:

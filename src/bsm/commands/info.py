@@ -49,10 +49,10 @@ def info_of_one(args: InfoJob, console: Console) -> Facts:
     # A scene may hold many streams, and each is described on its own.
     if is_scene(args.input):
         document = by_name("bsm.gltf.document", "read_document")(args.input, limits)
-        streams = {
-            n: summarize_stream(inspect_stream(iter([document.view(n)]), limits))
-            for n in document.streams
-        }
+        streams = {}
+        for number in document.streams:
+            info = inspect_stream(iter([document.view(number)]), limits)
+            streams[number] = summarize_stream(info)
         return {
             "input": args.input,
             "primitives": len(list(document.primitives())),
@@ -81,18 +81,37 @@ def _worded(summary: Facts) -> str:
     if "shards" in summary:
         return "\n".join(_tile_lines(summary))
     if "streams" in summary:
-        head = (
-            f"scene of {counted(primitives=summary['primitives'], streams=len(summary['streams']))}"
-        )
-        if not summary["streams"]:
-            head = f"scene of {counted(primitives=summary['primitives'])}, not compressed: "
-            head += f"bsm glb {shlex.quote(summary['input'])} -o OUT.glb compresses it"
-        return "\n\n".join(
-            [
-                head,
-                *(f"bufferView {n}: {_worded(stream)}" for n, stream in summary["streams"].items()),
-            ]
-        )
+        return "\n\n".join(_scene_parts(summary))
+    lines = [
+        f"version {summary['version']}, {', '.join(summary['extensions']) or 'core only'}: "
+        f"{counted(vertices=summary['vertices'], faces=summary['faces'])}",
+        _positions_line(summary),
+        *_paper_lines(summary),
+        *_sequence_lines(summary),
+    ]
+    if summary["checksum"]:
+        lines.append(f"checksum of decoded positions: {summary['checksum']}")
+    lines += ["bytes:", *_share_lines(summary), *_rate_lines(summary)]
+    lines += map(_attribute_line, summary["attributes"])
+    lines += _metadata_lines(summary)
+    for name, state in summary.get("linked_images", {}).items():
+        lines += [printable(f"the image {name} {state}")]
+    return "\n".join(lines)
+
+
+def _scene_parts(summary: Facts) -> Iterator[str]:
+    """Describe a scene, and then each of its streams."""
+    streams = summary["streams"]
+    if not streams:
+        head = f"scene of {counted(primitives=summary['primitives'])}, not compressed: "
+        yield f"{head}bsm glb {shlex.quote(summary['input'])} -o OUT.glb compresses it"
+        return
+    yield f"scene of {counted(primitives=summary['primitives'], streams=len(streams))}"
+    for number, stream in streams.items():
+        yield f"bufferView {number}: {_worded(stream)}"
+
+
+def _share_lines(summary: Facts) -> list[str]:
     total = summary["bytes"]["total"]
     shares = list[str]()
     # Bytes of all parts add up to the file, framing included, so that nothing stays unexplained.
@@ -101,50 +120,46 @@ def _worded(summary: Facts) -> str:
             shares.append(_share_line(f"  {name}", size, total))
             continue
         shares.append(_share_line("  positions", size, total))
-        kinds = {kind: count for kind, count in summary["positions"].items() if count}
-        shares += [
-            _share_line(f"    {kind.replace('_', ' ')}", count, total)
-            for kind, count in kinds.items()
-        ]
-    rates = []
-    if not summary["frames"]:
-        rates = [
-            f"bits per vertex: {summary['bpv_total']:.3f} in total, {summary['bpv_geometry']:.3f} for positions"
-        ]
-        packed, *_ = summary["header"]["paper"] or (0,)
-        if packed:
-            rates[0] += f", bpv_paper {summary['bpv_paper']:.3f} by the paper's formula"
-    counts = summary["metadata_bytes"]
-    texts = summary["metadata"] | {name: f"{count} bytes" for name, count in counts.items()}
+        for kind, count in summary["positions"].items():
+            if count:
+                shares += [_share_line(f"    {kind.replace('_', ' ')}", count, total)]
+    return shares
+
+
+def _rate_lines(summary: Facts) -> list[str]:
+    """The bits per vertex of a mesh; nothing of a sequence, which tells its own."""
+    if summary["frames"]:
+        return []
+    line = f"bits per vertex: {summary['bpv_total']:.3f} in total, {summary['bpv_geometry']:.3f} for positions"
+    packed, *_ = summary["header"]["paper"] or (0,)
+    if packed:
+        line += f", bpv_paper {summary['bpv_paper']:.3f} by the paper's formula"
+    return [line]
+
+
+def _metadata_lines(summary: Facts) -> list[str]:
+    texts = dict(summary["metadata"])
+    for name, count in summary["metadata_bytes"].items():
+        texts[name] = f"{count} bytes"
+    if not texts:
+        return []
     entries = [printable(f"  {name}: {value}") for name, value in texts.items()]
+    return ["metadata:", *entries]
+
+
+def _positions_line(summary: Facts) -> str:
     header, coefficients = summary["header"], summary["coefficients"] or [0]
     if header["grid"]:
-        positions = (
-            f"positions on a grid of {' x '.join(str(largest + 1) for largest in header['grid'])}"
-        )
-    else:
-        rows = "cells" if header["base"] else "vertices"
-        positions = f"{summary['blocks']} blocks of {summary['block_size']} {rows}, "
-        positions += f"{min(coefficients)} to {max(coefficients)} coefficients"
-        if header["refinement"]:
-            positions += ", and a layer of refinement"
-    lines = [
-        f"version {summary['version']}, {', '.join(summary['extensions']) or 'core only'}: "
-        f"{counted(vertices=summary['vertices'], faces=summary['faces'])}",
-        positions,
-        *_paper_lines(summary),
-        *_sequence_lines(summary),
-    ]
-    if summary["checksum"]:
-        lines.append(f"checksum of decoded positions: {summary['checksum']}")
-    lines += ["bytes:", *shares, *rates, *map(_attribute_line, summary["attributes"])]
-    if entries:
-        lines += ["metadata:", *entries]
-    lines += [
-        printable(f"the image {name} {state}")
-        for name, state in summary.get("linked_images", {}).items()
-    ]
-    return "\n".join(lines)
+        sizes = " x ".join(str(largest + 1) for largest in header["grid"])
+        return f"positions on a grid of {sizes}"
+    rows = "vertices"
+    if header["base"]:
+        rows = "cells"
+    line = f"{summary['blocks']} blocks of {summary['block_size']} {rows}, "
+    line += f"{min(coefficients)} to {max(coefficients)} coefficients"
+    if header["refinement"]:
+        line += ", and a layer of refinement"
+    return line
 
 
 def _share_line(name: str, size: int, total: int) -> str:
@@ -154,11 +169,16 @@ def _share_line(name: str, size: int, total: int) -> str:
 def _paper_lines(summary: Facts) -> list[str]:
     """The settings of a stream of packed coefficients, with the preset "paper" if it has all of that."""
     bits, _, _, power, iterations, *_ = map(int, summary["header"]["paper"] or [0] * 8)
-    derived = "one part" if summary["blocks"] == 1 else "parts by BSM's own rule, not METIS"
-    parts = "METIS parts" if summary["bytes"]["partition"] else derived
-    name = "preset paper" if summary["preset"] else "some settings of preset paper"
     if not bits:
         return []
+    parts = "parts by BSM's own rule, not METIS"
+    if summary["bytes"]["partition"]:
+        parts = "METIS parts"
+    elif summary["blocks"] == 1:
+        parts = "one part"
+    name = "some settings of preset paper"
+    if summary["preset"]:
+        name = "preset paper"
     return [f"{name}: R^{power}, iterations {iterations}, {bits} bits a coefficient, {parts}"]
 
 
@@ -177,7 +197,9 @@ def _tile_lines(summary: Facts) -> Iterator[str]:
 
 def _attribute_line(attribute: dict[str, Any]) -> str:
     what = f"{attribute['components']} x {attribute['kind']} per {attribute['domain']}, {attribute['semantic']}"
-    seams = f", {attribute['seams']} of them for seams" if attribute["seams"] else ""
+    seams = ""
+    if attribute["seams"]:
+        seams = f", {attribute['seams']} of them for seams"
     return (
         f"attribute {printable(attribute['name'])}: {what}, {attribute['values']} values, {attribute['coding']}, "
         f"{attribute['bytes']} bytes{seams}"
@@ -189,25 +211,33 @@ def _sequence_lines(summary: dict[str, Any]) -> list[str]:
     gops, header = summary["gops"], summary["header"]
     if not header["sequence"]:
         return []
-    rate = (
-        f", {summary['metadata']['frame_rate']:g} per second"
-        if "frame_rate" in summary["metadata"]
-        else ""
-    )
+    rate = ""
+    if "frame_rate" in summary["metadata"]:
+        rate = f", {summary['metadata']['frame_rate']:g} per second"
+    number_of_gops = f"{len(gops)} GOPs"
+    if len(gops) == 1:
+        number_of_gops = "1 GOP"
     sizes = [gop["bytes"] for gop in gops] or [0]
+    smallest, largest = min(sizes), max(sizes)
+    range_of_sizes = f"{smallest}"
+    if smallest < largest:
+        range_of_sizes = f"{smallest} to {largest}"
     return [
-        f"{summary['frames']} frames{rate}, in {len(gops)} {'GOP' if len(gops) == 1 else 'GOPs'} "
-        f"of {' to '.join(str(size) for size in sorted({min(sizes), max(sizes)}))} bytes, "
+        f"{summary['frames']} frames{rate}, in {number_of_gops} of {range_of_sizes} bytes, "
         f"{summary['bpvf_total'] or 0.0:.3f} bits per vertex and frame",
         *_run_lines(summary["runs"]),
     ]
 
 
 def _run_lines(runs: list[dict[str, Any]]) -> list[str]:
-    lines = [describe_runs([run["first"] for run in runs[1:]])] if len(runs) > 1 else []
-    for number, run in enumerate(runs[:MOST_LISTED] if lines else ()):
+    if len(runs) <= 1:
+        return []
+    lines = [describe_runs([run["first"] for run in runs[1:]])]
+    for number, run in enumerate(runs[:MOST_LISTED]):
         counts = counted(vertices=run["vertices"], faces=run["faces"])
-        again = "" if run["mesh"] == number else f", the mesh of run {run['mesh']} again"
+        again = ""
+        if run["mesh"] != number:
+            again = f", the mesh of run {run['mesh']} again"
         lines.append(
             f"run {number}: {run['frames']} frames from {run['first']} on, {counts}{again}"
         )

@@ -21,16 +21,18 @@ def advice_on_command(words: Sequence[str]) -> str:
     advice = COMMANDS.get(word.lower(), "")
     if advice:
         is_sentence = advice[0].isupper()
-        return f". {advice}" if is_sentence else f"; it is: bsm {advice}"
+        if is_sentence:
+            return f". {advice}"
+        return f"; it is: bsm {advice}"
     file_name = next(
         (name for name in words if Path(name).suffix.lower() in (*MESH_SUFFIXES, ".bsm")), None
     )
     if file_name is None or not (word.startswith("-") or file_name == word):
         return ""
-    stream = Path(file_name).suffix.lower() == ".bsm"
-    return (
-        f"; a command comes first: bsm {'decode' if stream else 'encode'} {shlex.quote(file_name)}"
-    )
+    command = "encode"
+    if Path(file_name).suffix.lower() == ".bsm":
+        command = "decode"
+    return f"; a command comes first: bsm {command} {shlex.quote(file_name)}"
 
 
 def refuse_misplaced(command: str, inputs: Sequence[str], *, recursive: bool) -> None:
@@ -50,7 +52,9 @@ def refuse_misplaced(command: str, inputs: Sequence[str], *, recursive: bool) ->
     ]
     for name in missing:
         if _UNIT.fullmatch(name) and not os.path.dirname(name):
-            example = "20" if name.lower().endswith(("b", "bytes")) and name != "dB" else "0.1"
+            example = "0.1"
+            if name.lower().endswith(("b", "bytes")) and name != "dB":
+                example = "20"
             raise OptionError(
                 f"{name}: no such file; if it is a unit, write it without a space: {example}{name}"
             )

@@ -45,33 +45,29 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace, console: Console) -> int:
     # Raises the errors of wrong values, before hours of reading.
-    EncodeOptions(
-        grid_cell=1.0 if args.grid_cell is None else args.grid_cell, grid_origin=args.grid_origin
-    )
+    grid_cell = args.grid_cell if args.grid_cell is not None else 1.0
+    EncodeOptions(grid_cell=grid_cell, grid_origin=args.grid_origin)
     if not is_url(args.input) and args.input != "-":
         os.stat(args.input)
-    beside = (
-        f"{name_in(args.output) or 'tiles'}.work"
-        if is_url(args.output)
-        else os.path.join(args.output, ".work")
-    )
+    beside = os.path.join(args.output, ".work")
+    outputs = [Path(args.output)]
+    if is_url(args.output):
+        beside = f"{name_in(args.output) or 'tiles'}.work"
+        outputs = []
     work = Path(os.path.abspath(args.work or beside))
     # The default lies in the output folder, which others may be able to write to.
     if not args.work and work.is_symlink():
         raise OptionError(f"{work} is a symbolic link; remove it, or name a folder with --work")
     # Both folders are locked for the whole run. A second run would take away the files of the first.
     with ExitStack() as folders:
-        outputs = [] if is_url(args.output) else [Path(args.output)]
-        folders_taken = [*outputs, *([work] if args.work or not outputs else [])]
+        folders_taken = [*outputs]
+        if args.work or not outputs:
+            folders_taken.append(work)
         for folder in folders_taken:
             folders.enter_context(there(folder))
-        is_left = max(
-            *(
-                folders.enter_context(held(folder, args.force or args.resume))
-                for folder in folders_taken
-            ),
-            False,
-        )
+        is_left = False
+        for folder in folders_taken:
+            is_left |= folders.enter_context(held(folder, args.force or args.resume))
         folders.enter_context(console.progress())
         return _run(args, console, work, is_left)
 
@@ -87,7 +83,10 @@ def _run(args: argparse.Namespace, console: Console, work: Path, is_left: bool) 
 
     # The report is what --resume reads: tiles that are done and unchanged are not made again.
     many = asked(Batch, args, report=str(work / "tiles.json"))
-    with console.progress(until=0.5 if args.tileset else 0.96):
+    share = 0.96  # of the work
+    if args.tileset:
+        share = 0.5
+    with console.progress(until=share):
         rows = run_many(many, asked_for, console, tile_one, _jobs(plan, work, args.finest), ended)
     # The manifest is written after the last tile, so that a reader never takes a part for the whole. The work stays and
     # can be resumed.
@@ -140,7 +139,9 @@ def _jobs(plan: Plan, work: Path, finest: bool) -> list[Job]:
     for name in names:
         # A coarse tile waits for its eight parts only, not for its whole level: few processes are ever idle.
         below = tuple(numbers[name + eighth] for eighth in "01234567" if name + eighth in numbers)
-        source = f"{name}[0-7].mesh" if below else "plan.json"
+        source = "plan.json"
+        if below:
+            source = f"{name}[0-7].mesh"
         jobs.append(Job(str(work / source), str(work / f"{name}.bsm"), below))
     return jobs
 

@@ -46,14 +46,10 @@ def run(args: argparse.Namespace, console: Console) -> None:
             mesh = tiles.region(ends[:3], ends[3:], args.error or 0.0, level=args.level)
         summary = {"vertices": len(mesh.positions), "faces": len(mesh.faces)}
         # On the grid that the tiles are on, a stream keeps their positions to the bit.
-        grid: dict[str, Any] = {
-            "grid_cell": tiles.lattice.cell,
-            "grid_origin": tiles.lattice.origin,
-        }
-        stream = Path(args.output).suffix.lower() == ".bsm"
-        by_name("bsm.api", "save")(
-            mesh, args.output, overwrite=args.force, **(grid if stream else {})
-        )
+        grid: dict[str, Any] = {}
+        if Path(args.output).suffix.lower() == ".bsm":
+            grid = {"grid_cell": tiles.lattice.cell, "grid_origin": tiles.lattice.origin}
+        by_name("bsm.api", "save")(mesh, args.output, overwrite=args.force, **grid)
     console.note(
         f"{args.input} -> {args.output}: {summary['vertices']} vertices, {summary['faces']} faces"
     )

@@ -66,7 +66,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
             raise OptionError(f"no streams or reports in {', '.join(args.inputs)} or subfolders")
     else:
         names = input_names(args.inputs)
-    jobs = [Job(name) for name in names]
+    jobs = list(map(Job, names))
     return run_jobs(asked(Batch, args), asked(VerifyJob, args), console, verify_one, jobs)
 
 
@@ -79,7 +79,9 @@ def verify_one(args: VerifyJob, console: Console) -> Facts:
     if verdict.faults:
         raise verdict.faults[0]
     # Only streams with a checksum of decoded positions prove that. Short ones have none.
-    matches = ", positions match the encoder's" if verdict.facts.get("checked") else ""
+    matches = ""
+    if verdict.facts.get("checked"):
+        matches = ", positions match the encoder's"
     console.note(f"{args.input}: whole, {verdict.contents}, {verdict.size} bytes{matches}")
     return {
         "input": args.input,
@@ -123,10 +125,12 @@ def _verify(args: VerifyJob, console: Console) -> Verdict:
 def _check_stream(chunks: list[bytes], args: VerifyJob) -> StreamInfo:
     limits = as_limits(args.limits)
     info = inspect_stream(iter(chunks), limits)
-    if not args.quick:
-        decode_through(iter(chunks), limits) if info.header.gop_frames else decode_whole(
-            iter(chunks), limits
-        )
+    if args.quick:
+        return info
+    if info.header.gop_frames:
+        decode_through(iter(chunks), limits)
+    else:
+        decode_whole(iter(chunks), limits)
     return info
 
 
@@ -151,18 +155,22 @@ def _verify_report(args: VerifyJob, console: Console) -> Verdict:
     results = read_results(args.input)
     faults: list[Fault] = []
     states = []
+    files = []
     size = 0
     for result in results:
         output = find_output(args.input, result["output"])
         own_faults = _output_faults(args, result, output)
         faults += own_faults
-        states.append(_state_of(own_faults))
-        size += os.path.getsize(output) if Path(output).is_file() else 0
+        state = _state_of(own_faults)
+        states.append(state)
+        files.append({"output": result["output"], "state": state})
+        if Path(output).is_file():
+            size += os.path.getsize(output)
     count = Counter(states)
     if faults:
         listing = ", ".join(f"{number} {state}" for state, number in count.items())
         console.note(f"{args.input}: {counted(outputs=len(results))}: {listing}")
-    files = [{"output": result["output"], "state": state} for result, state in zip(results, states)]
+
     return Verdict(counted(outputs=len(results)), size, faults, {"files": files})
 
 
@@ -190,8 +198,11 @@ def _output_faults(args: VerifyJob, result: Facts, output: str) -> list[Fault]:
 def _state_of(faults: Sequence[Fault]) -> str:
     if not faults:
         return "whole"
-    is_damaged = any(exit_of(fault).code != exit_of(FileNotFoundError()).code for fault in faults)
-    return "damaged" if is_damaged else "missing"
+    missing = exit_of(FileNotFoundError()).code
+    for fault in faults:
+        if exit_of(fault).code != missing:
+            return "damaged"
+    return "missing"
 
 
 def _verify_scene(args: VerifyJob) -> Verdict:
@@ -210,8 +221,6 @@ def _verify_tiles(args: VerifyJob) -> Verdict:
     tiles = by_name("bsm.tiles.shards", "open_tiles")(args.input, as_limits(args.limits))
     faults = list(tiles.faults(not args.quick))
     shards = tiles.manifest["shards"]
-    return Verdict(
-        counted(tiles=sum(shard["tiles"] for shard in shards)),
-        sum(shard["size"] for shard in shards),
-        faults,
-    )
+    count = sum(shard["tiles"] for shard in shards)
+    size = sum(shard["size"] for shard in shards)
+    return Verdict(counted(tiles=count), size, faults)

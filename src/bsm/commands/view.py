@@ -1,10 +1,9 @@
 """bsm view: streams in a browser, as they arrive."""
 
 import argparse
-import itertools
 import json
 import shlex
-from contextlib import nullcontext, suppress
+from contextlib import ExitStack, suppress
 from pathlib import Path
 from threading import Thread
 
@@ -80,18 +79,13 @@ def run(args: argparse.Namespace, console: Console) -> int:
         for name, data in site_with(static, args.crease_angle).items():
             file = Path(args.static, name)
             file.parent.mkdir(parents=True, exist_ok=True)
-            write_output(
-                file, data if isinstance(data, bytes) else data.whole(), overwrite=args.force
-            )
-        ranges = (
-            ", which must send ranges of files for tiles, as nginx does"
-            if any(map(is_tiles, args.inputs))
-            else ""
-        )
-        example = (
-            "" if ranges else f", for example: python -m http.server -d {shlex.quote(args.static)}"
-        )
-        console.note(f"{args.static}: a page for any web server{ranges}{example}")
+            if not isinstance(data, bytes):
+                data = data.whole()
+            write_output(file, data, overwrite=args.force)
+        advice = f", for example: python -m http.server -d {shlex.quote(args.static)}"
+        if any(map(is_tiles, args.inputs)):
+            advice = ", which must send ranges of files for tiles, as nginx does"
+        console.note(f"{args.static}: a page for any web server{advice}")
     if args.save or args.static:
         return 0
     with PageServer(served, args.port, args.crease_angle) as server:
@@ -108,7 +102,8 @@ def _view_folder(folder: str, args: argparse.Namespace, console: Console) -> int
     """Show a page with a picture of each stream of a folder."""
     wrong = [name for name in ("static", "original", "follow") if getattr(args, name)]
     # Pictures of an overview are flat everywhere.
-    wrong += ["crease-angle"] if args.crease_angle is not None else []
+    if args.crease_angle is not None:
+        wrong.append("crease-angle")
     if wrong:
         raise OptionError(f"{folder} has streams of its own; leave out --{wrong[0]}")
     with console.progress("drawing"):
@@ -130,7 +125,9 @@ def _serve(server: PageServer, args: argparse.Namespace, console: Console) -> No
     # To standard output and at once: scripts wait for this line before they open the page.
     print(server.address, flush=True)
     console.note("press Ctrl-C to stop")
-    with suppress(KeyboardInterrupt), nullcontext() if args.no_open else in_browser(server.address):
+    with suppress(KeyboardInterrupt), ExitStack() as browser:
+        if not args.no_open:
+            browser.enter_context(in_browser(server.address))
         server.serve_forever()
     console.note("stopped")
 
@@ -141,11 +138,10 @@ def _opened(
     """Open an input. The page reports a damaged stream, unless it is compared or the page is saved."""
     if is_tiles(path):
         manifest = open_tiles(path, as_limits(args.limits)).manifest
-        shards = {
-            shard["file"]: Ranged(path, shard["file"], shard["size"])
-            for shard in manifest["shards"]
-        }
-        return Tiled(name, {MANIFEST: json.dumps(manifest).encode(), **shards})
+        files: dict[str, bytes | Ranged] = {MANIFEST: json.dumps(manifest).encode()}
+        for shard in manifest["shards"]:
+            files[shard["file"]] = Ranged(path, shard["file"], shard["size"])
+        return Tiled(name, files)
     if args.follow or (path == "-" and not (args.save or args.static or args.original)):
         return _growing(name, path)
     if args.original:
@@ -180,15 +176,16 @@ def _opened(
 
 def _growing(name: str, path: str) -> Arrival:
     growing = Arrival(name)
-    chunks = read_chunks(path) if path == "-" else written_to(open(path, "rb"))  # noqa: SIM115
+    if path == "-":
+        chunks = read_chunks(path)
+        fault = NO_STREAM
+    else:
+        chunks = written_to(open(path, "rb"))  # noqa: SIM115
+        fault = f"{path} is not a BSM stream; only streams can be followed"
     # A daemon, because a pipe may never end, and Ctrl-C must.
     Thread(target=growing.receive, args=(chunks,), daemon=True).start()
     if not growing.begins():
-        raise FormatError(
-            NO_STREAM
-            if path == "-"
-            else f"{path} is not a BSM stream; only streams can be followed"
-        )
+        raise FormatError(fault)
     return growing
 
 
@@ -196,14 +193,11 @@ def _named(paths: list[str]) -> dict[str, str]:
     """Return paths by unique names."""
     by_name: dict[str, str] = {}
     for path in paths:
-        name = Path(path).name
+        file_name = name = Path(path).name
+        number = 1
         # Two files of one name from two folders are two entries of the page.
-        others = (f"{name} ({number})" for number in itertools.count(2))
-        by_name[
-            next(
-                candidate
-                for candidate in itertools.chain([name], others)
-                if candidate not in by_name
-            )
-        ] = path
+        while name in by_name:
+            number += 1
+            name = f"{file_name} ({number})"
+        by_name[name] = path
     return by_name
