@@ -231,15 +231,20 @@ def encode_many(
     checked_whole("jobs", jobs, 0)
     entries = checked_metadata(metadata)
     Wishes(keywords=keywords, metadata=entries).check()
-    run = Batch(
-        jobs=jobs, dask=dask, report=None if report is None else named(report), resume=resume
-    )
+    report_name = folder = None
+    if report is not None:
+        report_name = named(report)
+    run = Batch(jobs=jobs, dask=dask, report=report_name, resume=resume)
     # With a slash, so that the plan takes it for a folder even if it is not there yet.
-    folder = None if target is None else named(target).rstrip("/") + "/"
+    if target is not None:
+        folder = named(target).rstrip("/") + "/"
     planned = plan([named(source) for source in sources], folder, lambda _: ".bsm")
     options: dict[str, Any] = {**keywords}
+    threads = None
     # Processes side by side with all threads each would fight for the cores.
-    threads = options.pop("threads", 1 if run.side_by_side and len(planned) > 1 else None)
+    if run.side_by_side and len(planned) > 1:
+        threads = 1
+    threads = options.pop("threads", threads)
     more: dict[str, Any] = {
         "metadata": entries,
         "options": options,
@@ -317,7 +322,8 @@ def decode(
             mesh = decode_what_is_left(chunks, losses.append, limits)
             warn(losses)
             return mesh
-        return decode_whole(chunks, limits, threads, progress=reported if progress else None)
+        listener = reported if progress else None
+        return decode_whole(chunks, limits, threads, progress=listener)
 
 
 @_with_known_keywords
@@ -466,14 +472,21 @@ def encode_frames(
 
     if isinstance(meshes, (str, bytes)) or not isinstance(meshes, Iterable):
         raise ArgumentError(f"a mesh for each frame is expected, not {type(meshes).__name__}")
-    choices: dict[str, Any] = {"runs": True, **keywords} if options is None else {**keywords}
+    choices: dict[str, Any] = {**keywords}
+    if options is None:
+        choices = {"runs": True, **keywords}
     wishes = _wishes(None, options, choices, metadata, provenance)
-    frames = map(_as_frame if getattr(options, "runs", choices.get("runs")) else as_mesh, meshes)
+    as_frame: Callable[[Any], TriangleMesh] = as_mesh
+    if getattr(options, "runs", choices.get("runs")):
+        as_frame = _as_frame
+    frames = map(as_frame, meshes)
     first = next(frames, None)
     if first is None:
         raise MeshError("a sequence needs at least one frame")
     attributes = [a for a in first.attributes if a.semantic != "normal" and not is_empty([a])]
-    count = len(meshes) if isinstance(meshes, Sequence) else 0
+    count = 0
+    if isinstance(meshes, Sequence):
+        count = len(meshes)
     shared: dict[str, Any] = {"attributes": tuple(attributes), "metadata": first.metadata}
     source = Frames(first.faces, count, iter(()), **shared, meshes=chain([first], frames))
     return _joined(given_frames(source, wishes, first), progress)
@@ -653,7 +666,9 @@ def save(
     b'glTF'
     """
     if isinstance(path, str | os.PathLike):
-        name = named(path) if format is None else f"{named(path)}.{format}"
+        name = named(path)
+        if format is not None:
+            name = f"{name}.{format}"
         written = _as_file(mesh, name, keywords)
         try:
             return save_written(path, written, overwrite=overwrite)
@@ -787,11 +802,10 @@ def compare(original: Any, decoded: Any, *, order: npt.ArrayLike | None = None) 
 
     pair_as_given = list(map(as_mesh, (original, decoded)))
     first, second = (mesh.without_isolated_vertices()[0] for mesh in pair_as_given)
-    return compare_meshes(
-        first,
-        second,
-        pair(first, second, None if order is None else order_of_used(order, *pair_as_given)),
-    )
+    used_order = None
+    if order is not None:
+        used_order = order_of_used(order, *pair_as_given)
+    return compare_meshes(first, second, pair(first, second, used_order))
 
 
 @_with_known_keywords
