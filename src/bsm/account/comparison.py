@@ -60,7 +60,10 @@ def reorder(mesh: TriangleMesh, order: Order) -> TriangleMesh:
 
 def order_of_used(given: npt.ArrayLike, original: TriangleMesh, decoded: TriangleMesh) -> Order:
     """The order of the vertices that faces use, made of one of all vertices."""
-    order = np.asarray(given, None if np.ndim(given) == 1 else object)
+    kind = None
+    if np.ndim(given) != 1:
+        kind = object
+    order = np.asarray(given, kind)
     if order.ndim != 1 or order.dtype.kind not in "iu":
         raise ArgumentError(f"order must be a list of whole numbers, not {given!r}")
     if len(order) != len(decoded.positions):
@@ -96,7 +99,9 @@ def numbering(original: TriangleMesh, other: TriangleMesh, order: Order | None =
         for exact in (False, True):
             joined = join(original, keep=False, exact=exact)
             if len(joined.mesh.positions) == count:
-                by_joined = None if order is None else joined.index[order].astype(np.int64)
+                by_joined = None
+                if order is not None:
+                    by_joined = joined.index[order].astype(np.int64)
                 return np.append(numbering(joined.mesh, other, by_joined), -1)[joined.index]
     if len(original.positions) != count or len(original.faces) != len(other.faces):
         raise MeshError(
@@ -106,7 +111,9 @@ def numbering(original: TriangleMesh, other: TriangleMesh, order: Order | None =
         )
     if order is not None and len(order) != count:
         raise MeshError(f"the permutation has {len(order)} vertices, the mesh has {count}")
-    rows = np.arange(count) if order is None else np.argsort(order)
+    rows = np.arange(count)
+    if order is not None:
+        rows = np.argsort(order)
     faces = np.argsort(rows)[other.faces].astype(np.int32)
     # A symmetric mesh has more than one numbering that fits, so the closest likeness is looked for first.
     if np.array_equal(original.faces, faces):
@@ -141,7 +148,9 @@ def _collapsed(original: TriangleMesh, other: TriangleMesh) -> str:
     same = faces.shape == other.faces.shape and np.array_equal(
         canonical(faces), canonical(other.faces)
     )
-    return ", which are the same but for those that collapsed where vertices merged" if same else ""
+    if not same:
+        return ""
+    return ", which are the same but for those that collapsed where vertices merged"
 
 
 @dataclass(frozen=True, eq=False)
@@ -165,14 +174,16 @@ def paired_frames(
     index = group_rows(np.concatenate(before, axis=1))
     # Where vertices that part have two places.
     apart = TriangleMesh(np.column_stack([index] * 3), mesh.faces)
-    rows = numbering(apart, other, None if order is None else order_of_used(order, *whole))
+    used_order = None
+    if order is not None:
+        used_order = order_of_used(order, *whole)
+    rows = numbering(apart, other, used_order)
     after = np.where(rows[:, None] < 0, before, decoded[:, other_kept[rows]])
-    # Or faces have collapsed.
-    alike = len(mesh.faces) == len(other.faces) and bool((rows >= 0).all())
-    none = np.empty(0, np.int64)
-    return FramePair(
-        before, after, mesh.faces, *(paired_corners(mesh, other, rows) if alike else (none, none))
-    )
+    corners = others_corners = np.empty(0, np.int64)
+    # Else faces have collapsed.
+    if len(mesh.faces) == len(other.faces) and (rows >= 0).all():
+        corners, others_corners = paired_corners(mesh, other, rows)
+    return FramePair(before, after, mesh.faces, corners, others_corners)
 
 
 def one_each(before: Positions, after: Positions, faces: Faces, kept: int) -> tuple[Order, Faces]:
@@ -181,7 +192,9 @@ def one_each(before: Positions, after: Positions, faces: Faces, kept: int) -> tu
     whole = joined(mesh, index, keep=len(faces) == kept)
     copies = whole.index >= 0
     alike = (after[:, whole.first][:, whole.index[copies]] == after[:, copies]).all()
-    return (whole.first, whole.mesh.faces) if alike else (np.arange(len(index)), faces)
+    if alike:
+        return whole.first, whole.mesh.faces
+    return np.arange(len(index)), faces
 
 
 def paired_corners(original: TriangleMesh, other: TriangleMesh, rows: Order) -> tuple[Order, Order]:
@@ -214,7 +227,9 @@ def _unsplit(original: TriangleMesh, other: TriangleMesh, faces: Faces) -> Trian
     fits = np.array_equal(whole[other.faces], faces) and np.array_equal(
         positions[faces], other.positions[other.faces]
     )
-    return TriangleMesh(positions, faces) if fits else None
+    if not fits:
+        return None
+    return TriangleMesh(positions, faces)
 
 
 @public
@@ -298,7 +313,9 @@ def pair(original: TriangleMesh, decoded: TriangleMesh, order: Order | None = No
             raise
         rows = numbering(original, decoded, nearest)
     none = np.empty(0, np.int64)
-    pairs = paired_corners(original, decoded, rows) if attributed else (none, none)
+    pairs = none, none
+    if attributed:
+        pairs = paired_corners(original, decoded, rows)
     corners, others = (
         3 * given[found // 3] + found % 3 for given, found in zip(kept, pairs, strict=True)
     )
@@ -338,12 +355,13 @@ def compare_attributes(
 ) -> dict[str, AttributeComparison | None]:
     """Compare attributes at the corners of faces; None: an attribute is missing."""
     areas = np.repeat(face_geometry(original.positions, original.faces).areas, 3)[paired.corners]
-    return {
-        one.name: None
-        if other is None
-        else _compare_one(one, other, (original.faces, decoded.faces), paired, areas)
-        for one, other in _same_attributes(original.attributes, decoded.attributes)
-    }
+    faces = original.faces, decoded.faces
+    comparisons: dict[str, AttributeComparison | None] = {}
+    for one, other in _same_attributes(original.attributes, decoded.attributes):
+        comparisons[one.name] = None
+        if other is not None:
+            comparisons[one.name] = _compare_one(one, other, faces, paired, areas)
+    return comparisons
 
 
 def _same_attributes(
@@ -361,12 +379,12 @@ def _same_attributes(
     )
     renamed = {other.semantic: other for other in named}
     for attribute in original:
-        other = (
-            after[attribute.name]
-            if attribute.name in after
-            else renamed.pop(attribute.semantic, None)
-        )
-        yield attribute, other if other and other.components == attribute.components else None
+        other = after.get(attribute.name)
+        if other is None:
+            other = renamed.pop(attribute.semantic, None)
+        if other and other.components != attribute.components:
+            other = None
+        yield attribute, other
 
 
 def names_apart(original: TriangleMesh, decoded: TriangleMesh) -> dict[str, list[str]]:
@@ -380,8 +398,9 @@ def names_apart(original: TriangleMesh, decoded: TriangleMesh) -> dict[str, list
     for one, other in pairs:
         if other is not None and one.name == other.name and one.semantic == "generic":
             names = [name_in_file(mesh.metadata, one) for mesh in (original, decoded)]
-            first += names[:1] if names[0] != names[1] else []
-            second += names[1:] if names[0] != names[1] else []
+            if names[0] != names[1]:
+                first.append(names[0])
+                second.append(names[1])
     return {
         key: names
         for key, names in (("only_in_original", first), ("only_in_decoded", second))
@@ -401,9 +420,10 @@ def _compare_one(
     others = at_corners(other, faces[1]).reshape(-1, attribute.components)[paired.others]
     if attribute.semantic == "color" and values.dtype != others.dtype:
         values, others = map(shares_of, (values, others))
-    return compare_values(
-        values, others, areas if attribute.semantic == "normal" and len(areas) else None
-    )
+    weights = None
+    if attribute.semantic == "normal" and len(areas):
+        weights = areas
+    return compare_values(values, others, weights)
 
 
 Errors: TypeAlias = dict[str, float]
@@ -433,7 +453,9 @@ def lost_attributes(original: TriangleMesh, decoded: TriangleMesh) -> dict[str, 
         with suppress(MeshError):
             first, second = (mesh.without_isolated_vertices()[0] for mesh in (original, decoded))
             found = compare_attributes(first, second, pair(first, second))
-    return errors_of(found, original) if found else {}
+    if not found:
+        return {}
+    return errors_of(found, original)
 
 
 def errors_of_frames(
@@ -446,15 +468,18 @@ def errors_of_frames(
     """Return the largest errors of attributes over frames, the first of which has this number; None: missing."""
     found: dict[str, Errors | None] = {}
     seen: dict[str, tuple[Attribute, Attribute | None]] = {}
+    if not len(paired.corners):
+        return found
     for number, (now, then) in enumerate(zip(before, after, strict=True)):
-        for one, other in _same_attributes(now, then) if len(paired.corners) else ():
+        for one, other in _same_attributes(now, then):
             if (known := seen.get(one.name)) and known[0] is one and known[1] is other:
                 continue
             seen[one.name] = one, other
-            errors = None if other is None else _compare_one(one, other, faces, paired, np.empty(0))
-            found[one.name] = (
-                None if errors is None else _larger(found.get(one.name), errors, first + number)
-            )
+            largest = None
+            if other is not None:
+                errors = _compare_one(one, other, faces, paired, np.empty(0))
+                largest = _larger(found.get(one.name), errors, first + number)
+            found[one.name] = largest
     return found
 
 
@@ -471,8 +496,10 @@ def worded_errors(errors: Errors) -> str:
         return "no error"
     if "max_angle_deg" in errors:
         return f"largest error {errors['max_angle_deg']:.3g} degrees"
-    texels = f", {errors['max_error_texels']:.3g} texels" if "max_error_texels" in errors else ""
-    return f"largest error {errors['max_error']:.3g}{texels}"
+    text = f"largest error {errors['max_error']:.3g}"
+    if "max_error_texels" in errors:
+        text += f", {errors['max_error_texels']:.3g} texels"
+    return text
 
 
 def _flat_faces(positions: Positions, faces: Faces) -> Mask:

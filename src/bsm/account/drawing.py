@@ -46,18 +46,18 @@ def drawing(
         # pair.
         bounds = bounds_of(original.positions, view)
         for panel in panels:
-            colors = surface_colors(panel.mesh) if panel.far is None else heat(panel, top)
+            if panel.far is None:
+                colors = surface_colors(panel.mesh)
+            else:
+                colors = heat(panel, top)
             drawn = render(
                 panel.mesh.positions, panel.mesh.faces, view=view, bounds=bounds, colors=colors
             )
             pictures.append(drawn)
             titles.append(panel.title)
-    scale, unit = (
-        (1.0, unit_of(original.metadata))
-        if unit_of(original.metadata)
-        else (100.0, "% of the diagonal")
-    )
-    scale /= 1.0 if scale == 1.0 else original.diagonal or 1.0
+    scale, unit = 1.0, unit_of(original.metadata)
+    if not unit:
+        scale, unit = 100.0 / (original.diagonal or 1.0), "% of the diagonal"
     bar = Bar(scale * top, scale * largest, f"{unit}; largest {scale * largest:.3g}")
     try:
         return with_titles(pictures, titles, bar)
@@ -98,7 +98,9 @@ def surface_colors(mesh: TriangleMesh) -> npt.NDArray[np.float64] | None:
         (a.values[:, 0] for a in mesh.attributes if a.name == "material" and a.domain == "face"),
         None,
     )
-    numbers = np.full(len(mesh.faces), min(known)) if own is None else own
+    numbers = own
+    if numbers is None:
+        numbers = np.full(len(mesh.faces), min(known))
     colors = np.ones((len(mesh.faces), 3))
     for number, look in known.items():
         colors[numbers == number] = _sampled(look, mesh, placed[numbers == number].mean(axis=1))
@@ -107,9 +109,9 @@ def surface_colors(mesh: TriangleMesh) -> npt.NDArray[np.float64] | None:
 
 def _sampled(look: Appearance, mesh: TriangleMesh, places: Matrix) -> Matrix:
     """Colors of a material at texture coordinates, shape (k, 2), which count from the bottom."""
-    data = images_in(mesh.metadata).get(
-        look.color_texture.image if look.color_texture else -1, ("", b"")
-    )[1]
+    data = b""
+    if look.color_texture:
+        _, data = images_in(mesh.metadata).get(look.color_texture.image, ("", b""))
     image = None
     # Without Pillow the plain color is better than no picture.
     with suppress(DependencyError):

@@ -25,7 +25,9 @@ class ImageFile:
     bytes: int
 
     def __str__(self) -> str:
-        size = f"{self.width} x {self.height} pixels, " if self.width else ""
+        size = ""
+        if self.width:
+            size = f"{self.width} x {self.height} pixels, "
         return f"{size}{self.kind}, {self.bytes} bytes"
 
 
@@ -43,18 +45,19 @@ class ImageComparison:
             return f"{self.name}: {self.before}; missing"
         if self.before == self.after and self.psnr_db is None:
             return f"{self.name}: {self.before}; unchanged"
-        ratio = (
-            ""
-            if self.psnr_db is None
-            else f", PSNR {self.psnr_db:.1f} dB"
-            if self.psnr_db < math.inf
-            else ", exact"
-        )
+        if self.psnr_db is None:
+            ratio = ""
+        elif self.psnr_db < math.inf:
+            ratio = f", PSNR {self.psnr_db:.1f} dB"
+        else:
+            ratio = ", exact"
         return f"{self.name}: {self.before} -> {self.after}{ratio}"
 
     def facts(self) -> dict[str, Any]:
-        found = asdict(self)
-        return found if self.psnr_db != math.inf else {**found, "psnr_db": None, "exact": True}
+        facts = asdict(self)
+        if self.psnr_db == math.inf:
+            facts |= {"psnr_db": None, "exact": True}
+        return facts
 
 
 def compare_images(before: Metadata, after: Metadata) -> list[ImageComparison]:
@@ -72,10 +75,13 @@ def compare_images(before: Metadata, after: Metadata) -> list[ImageComparison]:
 
 def compare_image(name: str, before: bytes, after: bytes) -> ImageComparison:
     """Compare the files of an image; empty bytes: it is missing."""
-    pictures = (file_of(before), file_of(after) if after else None)
-    return ImageComparison(
-        name, *pictures, None if before == after or not after else _ratio(before, after)
-    )
+    first = file_of(before)
+    if not after:
+        return ImageComparison(name, first, None)
+    ratio = None
+    if before != after:
+        ratio = _ratio(before, after)
+    return ImageComparison(name, first, file_of(after), ratio)
 
 
 def file_of(data: bytes) -> ImageFile:
@@ -95,8 +101,14 @@ def _ratio(before: bytes, after: bytes) -> float | None:
     if len(images) < 2:
         return None
     clear = any("A" in image.getbands() or "transparency" in image.info for image in images)
-    first, second = (image.convert("RGBA" if clear else "RGB") for image in images)
-    second = second if first.size == second.size else second.resize(first.size, LANCZOS)
+    mode = "RGB"
+    if clear:
+        mode = "RGBA"
+    first, second = (image.convert(mode) for image in images)
+    if first.size != second.size:
+        second = second.resize(first.size, LANCZOS)
     apart = np.asarray(first, np.int16) - np.asarray(second, np.int16)
     wrong = float(np.square(apart, dtype=np.int32).mean(dtype=np.float64))
-    return 10.0 * math.log10(255.0**2 / wrong) if wrong else math.inf
+    if not wrong:
+        return math.inf
+    return 10.0 * math.log10(255.0**2 / wrong)

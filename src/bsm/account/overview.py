@@ -106,7 +106,9 @@ def write_page(title: str, results: Sequence[Facts], load: Load) -> bytes:
         for place, result in enumerate(ordered)
     )
     left = len(ordered) - MOST_PICTURES
-    more = f"<p>The last {left} rows have no pictures.</p>" if left > 0 else ""
+    more = ""
+    if left > 0:
+        more = f"<p>The last {left} rows have no pictures.</p>"
     heads = (
         "file",
         "before, after",
@@ -164,9 +166,9 @@ def _picture(result: Facts, load: Load) -> str:
     meshes = [load(name) for name in names]
     up = meshes[0].metadata.get("up")
     source = str(meshes[0].metadata.get("source_name", result["input"]))
-    view = (
-        _VIEW @ _UPRIGHT if up == "y" or (up is None and source.lower().endswith(_UP_Y)) else _VIEW
-    )
+    view = _VIEW
+    if up == "y" or (up is None and source.lower().endswith(_UP_Y)):
+        view = _VIEW @ _UPRIGHT
     bounds = bounds_of(meshes[0].positions, view)
     drawn = []
     for mesh in meshes:
@@ -193,21 +195,25 @@ def _ratio(result: Facts) -> str:
 
 def _number(result: Facts, name: str) -> str:
     value = result.get(name)
-    return "" if value is None else f"{value:.3g}"
+    if value is None:
+        return ""
+    return f"{value:.3g}"
 
 
 def _error(result: Facts) -> str:
     share = result.get("max_error_relative")
     if share is None:
         return ""
-    length = (
-        f"{result['max_error']:.3g} {html.escape(result['unit'])}, " if result.get("unit") else ""
-    )
+    length = ""
+    if result.get("unit"):
+        length = f"{result['max_error']:.3g} {html.escape(result['unit'])}, "
     return f"{length}{100 * share:.3g} % of the diagonal"
 
 
 def _image_note(image: Mapping[str, Any]) -> str:
     before, after = (image.get(side) or {} for side in ("before", "after"))
     quality = image.get("psnr_db")
-    equal = "equal" if quality is None else f"{quality:.3g} dB"
+    equal = "equal"
+    if quality is not None:
+        equal = f"{quality:.3g} dB"
     return f"image {image.get('name', '')}: {before.get('bytes', '?')} → {after.get('bytes', '?')} bytes, {equal}"
