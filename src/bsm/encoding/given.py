@@ -81,48 +81,50 @@ class Wishes:
         # What the user says counts more than what a file says: files are often wrong about their unit.
         known = {**metadata, **self.metadata}
         own = unit_of(known)
+        if not own or metres(own) is not None:
+            return known, []
         doubt = f"its unit {own} is not known, so sizes stay as they are; --meta unit=mm names it"
-        return known, [doubt] if own and metres(own) is None else []
+        return known, [doubt]
 
     def signed(self, metadata: Metadata, options: Any) -> tuple[Metadata, list[str]]:
         """Return metadata with a provenance entry, if it is requested or the input has one, and notes."""
         said = str(metadata.get(PROVENANCE, ""))
         # Provenance of other programs is kept, but not counted.
         if not said.startswith("bsm "):
-            return {
-                **metadata,
-                **({PROVENANCE: self._words(options, 1)} if self.provenance else {}),
-            }, []
+            signed_metadata = dict(metadata)
+            if self.provenance:
+                signed_metadata[PROVENANCE] = self._words(options, 1)
+            return signed_metadata, []
+        generation = 2
         found = _GENERATION.search(said)
-        generation = 1 + int(found[1] if found else 1)
+        if found:
+            generation = 1 + int(found[1])
+        note = f"the mesh was decoded from a stream, so this is generation {generation}"
         # On one grid, encoding again changes nothing. Otherwise each generation adds its error.
-        more = (
-            ""
-            if getattr(options, "is_grid", False)
-            else ": errors add up, so encode the original if you have it"
-        )
-        notes = [f"the mesh was decoded from a stream, so this is generation {generation}{more}"]
-        kept = {name: value for name, value in metadata.items() if name != PROVENANCE}
+        if not getattr(options, "is_grid", False):
+            note += ": errors add up, so encode the original if you have it"
+        signed_metadata = {name: value for name, value in metadata.items() if name != PROVENANCE}
         whole = self.provenance or " sha256=" in said
-        words = (
-            self._words(options, generation)
-            if whole
-            else f"bsm {__version__} generation={generation}"
-        )
-        return kept if self.provenance is False else {**kept, PROVENANCE: words}, notes
+        if self.provenance is not False:
+            words = f"bsm {__version__} generation={generation}"
+            if whole:
+                words = self._words(options, generation)
+            signed_metadata[PROVENANCE] = words
+        return signed_metadata, [note]
 
     def _words(self, options: Any, generation: int) -> str:
         # The number of threads changes no byte, and values that are not plain cannot be written down.
         given = {**self.keywords, "simplify": self.simplify}
-        parts = [
-            f"bsm {__version__}",
-            given.pop("preset", None) or ("balanced" if options.promise else "none"),
-        ]
+        preset = given.pop("preset", None)
+        if not preset:
+            preset = "balanced" if options.promise else "none"
+        parts = [f"bsm {__version__}", preset]
         plain = {
             n: v for n, v in given.items() if n != "threads" and isinstance(v, str | int | float)
         }
         parts += [f"{name}={value}" for name, value in plain.items() if value is not False]
-        parts += [f"generation={generation}"] if generation > 1 else []
+        if generation > 1:
+            parts.append(f"generation={generation}")
         if Path(self.source).is_file():
             parts.append(f"sha256={digest_of(self.source)}")
         return " ".join(parts)
@@ -155,14 +157,16 @@ def given_mesh(mesh: TriangleMesh, wishes: Wishes) -> Recipe:
         a.name for a in mesh.attributes if qualities.get(a.name, qualities.get("*")) == "none"
     } - {"material"}
     bare = qualities.get("*") == "none" and set(qualities.values()) == {"none"}
-    held = without_names(without_materials(mesh.metadata) if bare else mesh.metadata, left)
+    held = mesh.metadata
+    if bare:
+        held = without_materials(held)
+    held = without_names(held, left)
     left_out = ["left out: materials, images"] * bool(mesh.metadata.keys() - held.keys())
-    precision = PRECISION if is_single_and_far(mesh.positions) else {}
+    if is_single_and_far(mesh.positions):
+        held = {**PRECISION, **held}
     # Images are changed before the provenance is written: it tells how the stream was made of the file, not of the
     # images.
-    sent, generations = wishes.signed(
-        wishes.images({**precision, **held, **wishes.metadata}), options
-    )
+    sent, generations = wishes.signed(wishes.images({**held, **wishes.metadata}), options)
     losses, unit = (*notes, *generations), asked_unit(wishes.keywords, known)
     sent_mesh, options = replace(mesh, metadata=sent), with_texels(options, mesh)
     return Recipe(sent_mesh, options, wishes.simplify, unit, losses, (*losses, *left_out))
@@ -190,16 +194,18 @@ class MovingRecipe:
 
 def given_frames(source: Frames, wishes: Wishes, shown: TriangleMesh | None = None) -> MovingRecipe:
     """Frames for the wishes; `shown`: one of them, for the words of errors."""
-    rate = {"frame_rate": source.frame_rate} if source.frame_rate else {}
-    known, notes = wishes.joined(
-        {name: value for name, value in source.metadata.items() if name != TIME_VALUE} | rate
-    )
+    metadata = {name: value for name, value in source.metadata.items() if name != TIME_VALUE}
+    if source.frame_rate:
+        metadata["frame_rate"] = source.frame_rate
+    known, notes = wishes.joined(metadata)
+    asked = wishes
     # Caches of animations have no faces. Their reader finds vertices by number, so the order is part of their meaning.
-    played = {"keep_order": True} if source.rigged and wishes.options is None else {}
-    asked = replace(wishes, keywords={**played, **wishes.keywords})
+    if source.rigged and wishes.options is None:
+        asked = replace(wishes, keywords={"keep_order": True, **wishes.keywords})
     options: SequenceOptions = asked.made(sequence_options, SequenceOptions, known, shown)
     # Which order faces have in such a file is an accident of its mesh; sorted ones take fewer bits.
-    source = source.on_sorted_faces() if source.rigged and options.keep_order else source
+    if source.rigged and options.keep_order:
+        source = source.on_sorted_faces()
     sent, generations = wishes.signed(known, options)
     from bsm.codec.sequence.encoder import SequenceEncoder  # not for meshes
 

@@ -28,7 +28,9 @@ SEQUENCE_STEPS = {row.name: row.frame_step for row in SEQUENCE_ROWS}
 
 
 def encode_options(*, preset: str | None = None, **keywords: Any) -> EncodeOptions:
-    base: EncodeOptions = EncodeOptions() if preset is None else named("preset", PRESETS, preset)
+    base = EncodeOptions()
+    if preset is not None:
+        base = named("preset", PRESETS, preset)
     # None means "not given", in Python as on the command line, so callers can pass on what they got.
     asked = [name for name, value in keywords.items() if value is not None]
     promised = [name for name in asked if name in (*BOUNDS, "contract")]
@@ -73,7 +75,9 @@ def _with_bounds(base: EncodeOptions, named: bool, keywords: Mapping[str, Any]) 
         contract = replace(contract, farthest=number, absolute=absolute)
     if look is not None:
         look = checked("look", look, float)
-        contract = replace(contract, look=min(contract.look, look) if named else look)
+        if named:
+            look = min(contract.look, look)
+        contract = replace(contract, look=look)
     given["contract"] = contract
     return given
 
@@ -84,7 +88,9 @@ def sequence_options(
     name = DEFAULT if preset is None else preset
     # Said by name, since these are known words for meshes, and "unknown preset" would surprise.
     if name in PRESETS and name not in SEQUENCE_STEPS:
-        why = "it is for static meshes only" if name == "paper" else "GOPs round frames together"
+        why = "GOPs round frames together"
+        if name == "paper":
+            why = "it is for static meshes only"
         raise OptionError(f"a sequence cannot have preset {name}: {why}; try near-lossless")
     effort = keywords.pop("effort", "normal")
     bounds = {bound: value for bound in BOUNDS if (value := keywords.pop(bound, None)) is not None}
@@ -106,10 +112,11 @@ def sequence_options(
         farthest, absolute = parse_length(
             "max_error", bounds.get("max_error", PROMISES[name].farthest)
         )
+        usual_look = PROMISES[name].look
         # With low delay, frames are sent before later ones are known; there is no search that could keep a look.
-        look = checked(
-            "look", bounds.get("look", math.inf if together else PROMISES[name].look), float
-        )
+        if together:
+            usual_look = math.inf
+        look = checked("look", bounds.get("look", usual_look), float)
         given["promise"] = Contract(farthest, look=look, absolute=absolute)
     elif not (
         together
@@ -132,7 +139,9 @@ def denoise_options(**keywords: Any) -> Any:
             raise OptionError(
                 f"method auto chooses {next(iter(fields_given))} itself; leave it out, or name a method"
             )
-    return DenoiseOptions(**fields_given) if fields_given else None
+    if not fields_given:
+        return None
+    return DenoiseOptions(**fields_given)
 
 
 def _names(*kinds: Any) -> set[str]:
@@ -174,13 +183,11 @@ def _fields(
             ("sequences", _OF_SEQUENCES),
         ):
             if name in names and what != "denoising":
+                advice = ""
                 counterpart, value = _COUNTERPARTS.get(name, ("", ""))
-                as_option = f"--{counterpart.replace('_', '-')} {value}"
-                advice = (
-                    f"; instead: {counterpart}={value}, as an option {as_option}"
-                    if counterpart in known
-                    else ""
-                )
+                if counterpart in known:
+                    as_option = f"--{counterpart.replace('_', '-')} {value}"
+                    advice = f"; instead: {counterpart}={value}, as an option {as_option}"
                 raise ArgumentError(f"{name} is for {others}, not for {what}{advice}")
         raise ArgumentError(f"unknown option {name} for {what}{_advice_on(name, known)}")
     wanted = [
@@ -190,12 +197,13 @@ def _fields(
     ]
     if len(wanted) > 1:
         raise OptionError(f"give one target only, not {' and '.join(wanted)}")
-    for name in wanted if "target" not in wanted else ():
-        number = (
-            parse_bytes(name, keywords[name])
-            if name == "size"
-            else checked(name, keywords[name], float)
-        )
+    for name in wanted:
+        if name == "target":
+            continue
+        if name == "size":
+            number = parse_bytes(name, keywords[name])
+        else:
+            number = checked(name, keywords[name], float)
         given["target"] = Target(targets[name], number)
     return given
 

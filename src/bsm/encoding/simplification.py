@@ -84,7 +84,10 @@ def encode_source(
         return best
     # Smooth positions save most where blocks are refined; on grids, those that were regular may take fewer bytes.
     # Where blocks win, smooth positions are what saves; on grids both ways must be tried.
-    for slides in (True,) if best.attempt.header.refinement else SPENT:
+    ways = tuple(SPENT)
+    if best.attempt.header.refinement:
+        ways = (True,)
+    for slides in ways:
         for share in SPENT[slides]:
             with progress.part("encoding fewer triangles", 0.4):
                 made = source.encoded(source.taking(share, slides), best.attempt.size, progress)
@@ -92,7 +95,9 @@ def encode_source(
             if made is None:
                 break
             best = made
-    return best if best.decoded is None else replace(best, apart=source.distance(best.decoded))
+    if best.decoded is None:
+        return best
+    return replace(best, apart=source.distance(best.decoded))
 
 
 @dataclass(frozen=True, eq=False)
@@ -162,32 +167,31 @@ class Source:
 
     @cached_property
     def _metric(self) -> LookMetric | None:
-        return (
-            None
-            if self.promise.look == math.inf
-            else LookMetric(self.full_mesh, threads=self.options.threads)
-        )
+        if self.promise.look == math.inf:
+            return None
+        return LookMetric(self.full_mesh, threads=self.options.threads)
 
     @cached_property
     def _looks(self) -> list[Callable[[TriangleMesh], Look | float | None]]:
         if self._metric is None:
             return []
         colors, threads = look_values(self.full_mesh, "color"), self.options.threads
-        painted = (
-            []
-            if colors is None
-            else [AttributeLook(self.full_mesh, "color", colors, threads=threads).compare]
-        )
-        return [self._metric.compare, *painted]
+        if colors is None:
+            return [self._metric.compare]
+        painted = AttributeLook(self.full_mesh, "color", colors, threads=threads)
+        return [self._metric.compare, painted.compare]
 
     def look(self, other: TriangleMesh) -> float:
         """The look distance of another mesh from the original, also in colors, as a share of the promise."""
-        looks = (look(other) for look in self._looks)
-        found = (
-            look.distance if isinstance(look, Look) else math.inf if look is None else look
-            for look in looks
-        )
-        return max(found, default=0.0) / self.promise.look
+        distances = []
+        for compare in self._looks:
+            look = compare(other)
+            if look is None:
+                look = math.inf
+            elif isinstance(look, Look):
+                look = look.distance
+            distances.append(look)
+        return max(distances, default=0.0) / self.promise.look
 
     def apart(self, other: TriangleMesh, reach: Matrix, enough: float = 1.0) -> float:
         """The largest distance of both surfaces as a share of the bound (others: `reach`); exact if above `enough`."""
@@ -227,7 +231,8 @@ class Source:
             round(target),
             costs=CHEAPEST,
         )
-        new = new if loose is None else slid(new, faces, quadrics, LOOSEST * LOOSER**loose)
+        if loose is not None:
+            new = slid(new, faces, quadrics, LOOSEST * LOOSER**loose)
         kept = np.flatnonzero(owners >= 0)
         # Of all vertices that became one, the nearest gives it its attributes. A mean of colors would be a color that
         # the mesh does not have.
@@ -240,10 +245,12 @@ class Source:
             replace(attribute, values=attribute.values[nearest]) for attribute in whole.attributes
         )
         mesh = TriangleMesh(new * scale + low, faces, attributes, whole.metadata)
-        spent = math.inf if len(faces) > ENOUGH * target else self.look(mesh)
-        return StandIn(
-            mesh, reach, spent if self._looks else max(spent, self.apart(mesh, reach, NEAR))
-        )
+        spent = math.inf
+        if len(faces) <= ENOUGH * target:
+            spent = self.look(mesh)
+        if not self._looks:
+            spent = max(spent, self.apart(mesh, reach, NEAR))
+        return StandIn(mesh, reach, spent)
 
     @cached_property
     def _loose(self) -> int:
@@ -254,7 +261,9 @@ class Source:
 
     def taking(self, share: float, slides: bool) -> StandIn:
         """The stand-in of fewest triangles that takes such a share of the promise at most."""
-        loose = self._loose if slides else None
+        loose = None
+        if slides:
+            loose = self._loose
         rung = bisect_left(
             range(RUNGS), True, key=lambda rung: self.stand_in(rung + 1, loose).spent > share
         )
@@ -262,7 +271,9 @@ class Source:
 
     def encoded(self, one: StandIn, most: int, progress: Progress) -> Chosen | None:
         """Return a stream of a stand-in in fewer bytes than `most` that was found to keep the promise, if any."""
-        promise, look, off = self.promise, self.promise.look, 0.0 if self._looks else one.spent
+        promise, look, off = self.promise, self.promise.look, one.spent
+        if self._looks:
+            off = 0.0
         for _ in range(TRIES):
             # Nothing of the promise is left for the coder.
             if not off < AIM:
@@ -290,7 +301,9 @@ class Source:
             np.minimum.at(placed, encoder.vertex_index, one.reach)
             share, seen = self.apart(decoded, placed), self.look(decoded)
             if max(share, seen) <= 1.0:
-                encoder.look = seen * promise.look if self._metric else None
+                encoder.look = None
+                if self._metric:
+                    encoder.look = seen * promise.look
                 return Chosen(
                     encoder, attempt, self.full_mesh, None, decoded, self._input.joined.notes
                 )
@@ -330,9 +343,12 @@ def collapsed(
     """Simplify to about `target` triangles; locked and border vertices stay. Also return new numbers, or -1, the
     `wedges` left: numbers of the values of corners, and quadrics of vertices that may move. With wedges, vertices stay
     or vanish, and seams stay seams."""
-    count, sides, own = len(positions), 3 * len(faces), faces if wedges is None else wedges
+    count, sides = len(positions), 3 * len(faces)
+    own, usual_state = faces, 0
+    if wedges is not None:
+        own, usual_state = wedges, _STEADY
     sides_of, _, uses = edges_of(faces)
-    stay = np.where(locked, _FIXED, 0 if wedges is None else _STEADY).astype(np.uint8)
+    stay = np.where(locked, _FIXED, usual_state).astype(np.uint8)
     # At open borders, and where more than two triangles meet at an edge.
     # An open border that moves changes the outline, which eyes notice first.
     stay[sides_of[uses != 2]] = _FIXED
