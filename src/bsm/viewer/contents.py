@@ -134,11 +134,10 @@ def compared(
     rivals: tuple[Shown, ...] = ()
     if isinstance(original, Frames):
         # Only where attributes move, each frame is read as a mesh.
-        moments = (
-            [(frame, original.attributes) for frame in original.frames]
-            if original.meshes is None
-            else [(mesh.positions, mesh.attributes) for mesh in original.meshes]
-        )
+        if original.meshes is None:
+            moments = [(frame, original.attributes) for frame in original.frames]
+        else:
+            moments = [(mesh.positions, mesh.attributes) for mesh in original.meshes]
         frames = np.array([frame for frame, _ in moments])
         decoder = SequenceStream(Input(stream).chunks(), limits=limits)
         found, off = _over_time(
@@ -154,9 +153,10 @@ def compared(
         promised = _promised(
             {known: options.contract for known, options in PRESETS.items()}, preset
         )
-    first = Shown(
-        "Original", "" if size else "as plain arrays", size or plain, before or carried(original)
-    )
+    detail = ""
+    if not size:
+        detail = "as plain arrays"
+    first = Shown("Original", detail, size or plain, before or carried(original))
     second = Shown("BSM", preset or "", len(stream), stream, off)
     return Content(name, (first, second, *rivals), 1, {"preset": preset, **found, **promised})
 
@@ -203,7 +203,9 @@ def _at_rest(
 
 
 def _promised(contracts: Mapping[str, Contract | None], preset: str | None) -> dict[str, Any]:
-    contract = contracts[preset] if preset else None
+    if not preset:
+        return {}
+    contract = contracts[preset]
     if contract is None:
         return {}
     bounds = {"look": contract.look, "farthest": min(contract.farthest, contract.by_part)}
@@ -261,9 +263,12 @@ def _over_time(
                 TriangleMesh(decoded[frame], decoder.faces),
             )
             looks.append(look(then, now).moving)
-    facts |= {"look": max(looks), "drawn": len(looks)} if looks else {}
+    if looks:
+        facts |= {"look": max(looks), "drawn": len(looks)}
     facts |= {"farthest": float(errors.max()), "errors": errors.tolist()}
-    return facts, off if off.size <= _MOST_COLORS and np.isfinite(off).any() else None
+    if off.size > _MOST_COLORS or not np.isfinite(off).any():
+        return facts, None
+    return facts, off
 
 
 def _rival(
@@ -309,7 +314,7 @@ def made(
     """Encode a file and compare it; call `report` with each stage and the fraction done."""
     report("encoding", 0.0)
     begin = time.perf_counter()
-    source: TriangleMesh | Frames = given.mesh if isinstance(given, MeshFile) else given
+    source = _shape_of(given)
     wishes = Wishes(keywords={"preset": preset})
     notes, less = list(given.notes), _lost_data(given)
     if isinstance(source, TriangleMesh):
@@ -347,6 +352,13 @@ def encoded_scene(name: str, path: str, limits: Limits = DEFAULT_LIMITS) -> Cont
     return Content(name, (Shown("GLB", "", size, carried(source.mesh)),), facts=facts)
 
 
+def _shape_of(source: MeshFile | Frames) -> TriangleMesh | Frames:
+    """The mesh of a file, or frames as they are."""
+    if isinstance(source, MeshFile):
+        return source.mesh
+    return source
+
+
 def _lost_data(given: MeshFile | Frames) -> bool:
     """Whether so much of a file is left out that sizes cannot be compared: more than cameras and lights."""
     return isinstance(given, MeshFile) and not all(map(_SCENERY.fullmatch, given.dropped))
@@ -365,7 +377,7 @@ class Given:
     def decoded(self, limits: Limits) -> tuple[bytes | None, TriangleMesh | Frames]:
         """Return the stream, if it is one, and the mesh or sequence."""
         if not isinstance(self.source, bytes):
-            return None, self.source.mesh if isinstance(self.source, MeshFile) else self.source
+            return None, _shape_of(self.source)
         header, chunks = peek_header(iter([self.source]))
         if not header or not header.gop_frames:
             return self.source, decode_whole(chunks, limits)
@@ -376,8 +388,13 @@ class Given:
 def given_at(path: str, limits: Limits = DEFAULT_LIMITS, wanted: Wanted | None = None) -> Given:
     """Open a sequence, a stream or a mesh file."""
     if frames := open_sequence(path, None, wanted, limits):
-        used = (path, str(wanted.mesh)) if wanted and wanted.mesh else (path,)
-        return Given(path, frames, None if PurePath(path).suffix == "" else size_of(path), used)
+        used = [path]
+        if wanted and wanted.mesh:
+            used.append(str(wanted.mesh))
+        size = None
+        if PurePath(path).suffix:
+            size = size_of(path)
+        return Given(path, frames, size, tuple(used))
     data = b"".join(read_chunks(path))
     # An empty file begins every other text, so it counts as a stream, and the decoder says that it ends too early.
     if MAGIC.startswith(data[: len(MAGIC)]):
@@ -387,8 +404,10 @@ def given_at(path: str, limits: Limits = DEFAULT_LIMITS, wanted: Wanted | None =
     if PurePath(path).suffix.lower() == ".bsm":
         decode_whole(iter([data]))  # raises the error of the stream
     found = read_mesh(path, limits=limits)
-    parts = {} if is_url(path) else parts_of(path, found.mesh.metadata)
-    missing = tuple(name for name, part in parts.items() if part is None)
+    missing: tuple[str, ...] = ()
+    if not is_url(path):
+        parts = parts_of(path, found.mesh.metadata)
+        missing = tuple(name for name, part in parts.items() if part is None)
     size, there = size_with_parts(path, found.mesh.metadata)
     return Given(path, found, size, (path, *there), missing)
 
@@ -405,21 +424,26 @@ def given_among(paths: Sequence[str], folder: str) -> list[Given]:
     if len(shown) > 2:
         frames = replace(given_at(folder, limits), name=PurePath(common_name(shown)).name)
         return [replace(frames, size=sum(size_of(path) or 0 for path in shown), used=tuple(shown))]
-    meshes = [path for path in paths if is_mesh_name(path)] if caches else []
-    return [
-        given_at(path, limits, Wanted(mesh=meshes[0]) if meshes else _moving(path))
-        for path in shown or paths[:1]
-    ]
+    mesh = None
+    if caches:
+        mesh = next(filter(is_mesh_name, paths), None)
+    files = []
+    for path in shown or paths[:1]:
+        if mesh is None:
+            wanted = _moving(path)
+        else:
+            wanted = Wanted(mesh=mesh)
+        files.append(given_at(path, limits, wanted))
+    return files
 
 
 def _moving(path: str) -> Wanted | None:
     """What to ask of a glTF file that has animations: the first one."""
-    is_gltf = PurePath(path).suffix[1:].lower() in GLTF
-    return (
-        Wanted()
-        if is_gltf and by_name("bsm.gltf.document", "read_document")(path).items("animations")
-        else None
-    )
+    if PurePath(path).suffix[1:].lower() not in GLTF:
+        return None
+    if not by_name("bsm.gltf.document", "read_document")(path).items("animations"):
+        return None
+    return Wanted()
 
 
 def against(before: Given, given: Given, limits: Limits) -> Content:
@@ -430,13 +454,13 @@ def against(before: Given, given: Given, limits: Limits) -> Content:
         name, stream or carried(shown), original, size=before.size, limits=limits, before=carrier
     )
     first, second, *rivals = content.layers
-    title = "BSM" if stream else PurePath(name).suffix[1:].upper() or "Other"
+    title = "BSM"
+    if not stream:
+        title = PurePath(name).suffix[1:].upper() or "Other"
+        # Draco's file was made to be compared with a stream.
+        rivals = []
     second = replace(second, title=title, detail=name, size=given.size or 0)
-    layers = (
-        replace(first, detail=PurePath(before.name).name),
-        second,
-        *(rivals if stream else ()),
-    )
+    layers = (replace(first, detail=PurePath(before.name).name), second, *rivals)
     read = [
         (PurePath(each.name).name, each.source)
         for each in (before, given)
@@ -449,12 +473,11 @@ def against(before: Given, given: Given, limits: Limits) -> Content:
     ]
     if isinstance(original, TriangleMesh) and isinstance(shown, TriangleMesh):
         notes += changed(compare_images(original.metadata, shown.metadata))
-    said = {"notes": notes, "less": any(_lost_data(source) for _, source in read)}
-    return replace(
-        content,
-        layers=layers,
-        facts={**content.facts, **said} | ({} if stream else {"draco": None}),
-    )
+    less = any(_lost_data(source) for _, source in read)
+    facts = {**content.facts, "notes": notes, "less": less}
+    if not stream:
+        facts["draco"] = None
+    return replace(content, layers=layers, facts=facts)
 
 
 def _work(pipe: Connection, paths: Sequence[str], folder: str, preset: str) -> None:
@@ -467,7 +490,10 @@ def _work(pipe: Connection, paths: Sequence[str], folder: str, preset: str) -> N
 
     try:
         first, *others = given = given_among(paths, folder)
-        report("comparing" if others else "encoding", 0.0)
+        stage = "encoding"
+        if others:
+            stage = "comparing"
+        report(stage, 0.0)
         name = PurePath(first.name).name
         if others:
             content = against(first, others[0], Limits.service())

@@ -71,9 +71,13 @@ def show(
 
 
 def _content(source: Any, original: Any, keywords: dict[str, Any]) -> Content:
-    name = Path(source).name if isinstance(source, (str, os.PathLike)) else "mesh"
+    name = "mesh"
+    if isinstance(source, (str, os.PathLike)):
+        name = Path(source).name
     given = as_file(source)
-    mesh = None if original is None else as_mesh(original)
+    mesh = None
+    if original is not None:
+        mesh = as_mesh(original)
     preset = None
     if given and is_stream(given):
         if keywords:
@@ -85,6 +89,10 @@ def _content(source: Any, original: Any, keywords: dict[str, Any]) -> Content:
         data = encode_sequence(*source, **keywords)
     else:
         data = encode(encoded := as_mesh(given or source), **keywords)
-        preset = None if set(keywords) - {"preset"} or mesh else keywords.get("preset", "balanced")
+        # A promise is shown where the preset alone was chosen, and the mesh is compared with itself.
+        if not mesh and not set(keywords) - {"preset"}:
+            preset = keywords.get("preset", "balanced")
         mesh = mesh or encoded
-    return alone(name, data) if mesh is None else compared(name, data, mesh, preset=preset)
+    if mesh is None:
+        return alone(name, data)
+    return compared(name, data, mesh, preset=preset)

@@ -71,8 +71,9 @@ class Arrival:
         with self._change:
             self._data += chunk
             try:
-                for packet in self._skimmer.receive(chunk) if self._skimmer else ():
-                    self._note(packet, slice(packet.offset, packet.offset + packet.length))
+                if self._skimmer:
+                    for packet in self._skimmer.receive(chunk):
+                        self._note(packet, slice(packet.offset, packet.offset + packet.length))
             except BsmError:
                 # After damage no place to enter is known for certain. Pages then get all bytes, and their decoder says
                 # what is wrong.
@@ -121,7 +122,9 @@ class Arrival:
             assert self._skimmer is not None
             self._entry = None
             # A run that repeats an earlier mesh cannot be entered: its faces were sent only then.
-            self._head = [place, *self._metadata] if self._skimmer.header.mesh_of is None else []
+            self._head = []
+            if self._skimmer.header.mesh_of is None:
+                self._head = [place, *self._metadata]
         elif packet.type == FrameType.GOP:
             if self._head and packet.begins:
                 self._entry = place.start
@@ -256,7 +259,8 @@ def site_with(
 
     def place(path: str, data: bytes) -> dict[str, str]:
         name = path.removeprefix("/").replace("/", "-")
-        name += "" if PurePath(name).suffix else ".bin"
+        if not PurePath(name).suffix:
+            name += ".bin"
         built[name] = data
         return {"url": name}
 
@@ -357,7 +361,10 @@ class PageServer(ThreadingHTTPServer):
 
     def place(self, path: str, data: bytes | Arrival) -> dict[str, str]:
         """Have the page fetch these bytes, at an address relative to its own."""
-        self.content[path] = ("application/wasm" if path.endswith(".wasm") else _BYTES, data)
+        kind = _BYTES
+        if path.endswith(".wasm"):
+            kind = "application/wasm"
+        self.content[path] = (kind, data)
         return {"url": path[1:]}
 
     def dropped(self, content: Content) -> dict[str, Any]:
@@ -406,7 +413,9 @@ class _Handler(BaseHTTPRequestHandler):
             status = HTTPStatus.OK
             if isinstance(data, Ranged):
                 asked = _RANGE.fullmatch(self.headers.get("Range", ""))
-                begin, end = map(int, asked.groups()) if asked else (1, 0)
+                begin, end = 1, 0
+                if asked:
+                    begin, end = map(int, asked.groups())
                 # Only ranges with both ends are answered. A request without one would fetch a shard of 64 MB.
                 if not begin <= end < min(data.size, begin + _MOST_RANGE):
                     self.send_error(HTTPStatus.REQUESTED_RANGE_NOT_SATISFIABLE)
@@ -477,12 +486,9 @@ class _Handler(BaseHTTPRequestHandler):
         """Lines of JSON: stage and share, at last an entry or an error."""
         with closing(uploaded(files, preset)) as reports:
             for report in reports:
-                line = (
-                    {"entry": self.server.dropped(report)}
-                    if isinstance(report, Content)
-                    else report
-                )
-                yield json.dumps(line).encode() + b"\n"
+                if isinstance(report, Content):
+                    report = {"entry": self.server.dropped(report)}
+                yield json.dumps(report).encode() + b"\n"
 
     def _answer(
         self, data: bytes | Arrival | Iterator[bytes], kind: str, status: HTTPStatus = HTTPStatus.OK
@@ -506,8 +512,10 @@ class _Handler(BaseHTTPRequestHandler):
             self.send_header("Content-Length", str(len(data)))
             data = iter([data])
         self.end_headers()
+        if isinstance(data, Arrival):
+            data = data.chunks()
         with suppress(OSError):  # the page is closed
-            for piece in data.chunks() if isinstance(data, Arrival) else data:
+            for piece in data:
                 # The page has gone; it says nothing more while it is there.
                 # Sending to a page that is gone fails only after some time. Until then an upload would be encoded for
                 # nobody.
