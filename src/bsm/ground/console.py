@@ -40,7 +40,8 @@ class Console:
         if self.kept is not None:
             self.kept.append(text)
         elif not self.quiet:
-            say(text, "note" if self.json else None)
+            key = "note" if self.json else None
+            say(text, key)
 
     @contextmanager
     def progress(self, what: str = "", until: float = 1.0) -> "Iterator[Progress]":
@@ -82,7 +83,8 @@ class Progress:
         self._shown, self._lines, self._heard = shown, lines, heard
         self._begun = self._said_at = time.monotonic()
         # Programs that read lines get the first at once; people see no bar before it is worth one.
-        self._said_at += 0.0 if lines else _PATIENCE - _OFTEN
+        if not lines:
+            self._said_at += _PATIENCE - _OFTEN
         self._share, self._when = 0.0, 0.0  # as reported, and after how many seconds
         # Estimates may fall, and a bar that goes back looks like a fault.
         self._most = 0.0  # the largest share that was shown, which never falls
@@ -135,7 +137,8 @@ class Progress:
     def _at(self, share: float) -> None:
         self._share, self._when = max(share, self._share), time.monotonic() - self._begun
         self._tell_listener(self._share)
-        self._say(_SECOND if self._lines else _OFTEN)
+        interval = _SECOND if self._lines else _OFTEN
+        self._say(interval)
 
     def _tell_listener(self, share: float) -> None:
         """Tell a listener, to whom nothing goes back."""
@@ -173,19 +176,26 @@ class Progress:
         if self._lines:
             _say_json({"stage": what, "share": share, "seconds": since, "seconds_left": left})
             return
-        done = "" if left is None else f"{100 * share:3.0f}%|{'█' * int(_BAR * share):{_BAR}}| "
-        rest = "" if left is None else f"<{int(left) // 60:02d}:{int(left) % 60:02d}"
+        done = rest = ""
+        if left is not None:
+            done = f"{100 * share:3.0f}%|{'█' * int(_BAR * share):{_BAR}}| "
+            rest = f"<{int(left) // 60:02d}:{int(left) % 60:02d}"
         # A line as wide as the terminal would wrap, and the next one could not be written over it.
         line = f"{printable(what)}: {done}{int(since) // 60:02d}:{int(since) % 60:02d}{rest}"
         _write("", line[: shutil.get_terminal_size().columns - 1])
 
     def _tick(self) -> None:
         """Say it again each second, so that silence does not look like the end."""
+        interval = _SECOND / 2 if self._lines else 0.0
         # The clock ends at once when the work does, instead of at its next tick.
-        while not self._over.wait(
-            _PATIENCE if time.monotonic() - self._begun < _PATIENCE else max(_SECOND, 0.1)
-        ):
-            self._say(_SECOND / 2 if self._lines else 0.0)
+        while not self._over.wait(self._time_to_tick()):
+            self._say(interval)
+
+    def _time_to_tick(self) -> float:
+        """Seconds from one tick of the clock to the next."""
+        if time.monotonic() - self._begun < _PATIENCE:
+            return _PATIENCE
+        return max(_SECOND, 0.1)
 
 
 _CLAUSES = re.compile(r"(; |\? |(?<=\w)\. )")
@@ -212,9 +222,13 @@ def for_command(text: str, options: frozenset[str] | None) -> str:
 
 def printable(text: str) -> str:
     """With escapes in place of what would make a terminal do something, or begin a line of its own."""
-    return "".join(
-        char if char.isprintable() else char.encode("unicode_escape").decode() for char in text
-    )
+    return "".join(map(_escaped, text))
+
+
+def _escaped(char: str) -> str:
+    if char.isprintable():
+        return char
+    return char.encode("unicode_escape").decode()
 
 
 def say(text: str, key: str | None = None) -> None:
@@ -229,7 +243,9 @@ def _write(text: str, bar: str = "") -> None:
     """Write a text in place of the bar on the terminal, and then another bar."""
     global _bar
     with _writing:
-        wiped = f"\r{' ' * len(_bar)}\r" if _bar else ""
+        wiped = ""
+        if _bar:
+            wiped = f"\r{' ' * len(_bar)}\r"
         _put(f"{wiped}{text}{bar}")
         _bar = bar
 
@@ -251,7 +267,9 @@ def _put(text: str) -> None:
 
 def finite(value: float) -> float | None:
     """A number for JSON, which has no infinity; equal meshes have no decibels."""
-    return value if math.isfinite(value) else None
+    if not math.isfinite(value):
+        return None
+    return value
 
 
 def as_json(value: Mapping[str, Any]) -> str:
@@ -265,7 +283,9 @@ def print_json(value: Mapping[str, Any]) -> None:
 def in_notebook() -> bool:
     # Not imported: a notebook has loaded it already.
     library = sys.modules.get("IPython")
-    shell = library.get_ipython() if library else None
+    if not library:
+        return False
+    shell = library.get_ipython()
     return shell is not None and "IPKernelApp" in shell.config
 
 

@@ -99,13 +99,16 @@ def report_error(
         # Python's own advice for SIGPIPE. Without it the interpreter prints a second error when it ends.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return
-    text = (
-        exit_of(error).meaning
-        if isinstance(error, _SIGNALS)
-        else for_command(worded(error), options)
-    )
-    text += f"; {advice}" if advice else ""
-    say(text if as_json else f"bsm: {text}", "error" if as_json else None)
+    if isinstance(error, _SIGNALS):
+        text = exit_of(error).meaning
+    else:
+        text = for_command(worded(error), options)
+    if advice:
+        text += f"; {advice}"
+    if as_json:
+        say(text, "error")
+    else:
+        say(f"bsm: {text}")
 
 
 def worded(error: BaseException) -> str:
@@ -114,10 +117,11 @@ def worded(error: BaseException) -> str:
         # "No such file" is misleading for an output whose folder is missing.
         if reason == os.strerror(errno.ENOENT) and "://" not in name:
             folder = os.path.dirname(name)
-            reason = (
-                f"the folder {folder} does not exist"
-                if folder and not os.path.isdir(folder)
-                else reason
-            )
-        return f"{error.filename or repr('')}: {reason}" if error.filename is not None else reason
-    return f"not enough memory: {error}" if isinstance(error, MemoryError) else str(error)
+            if folder and not os.path.isdir(folder):
+                reason = f"the folder {folder} does not exist"
+        if error.filename is None:
+            return reason
+        return f"{error.filename or repr('')}: {reason}"
+    if isinstance(error, MemoryError):
+        return f"not enough memory: {error}"
+    return str(error)

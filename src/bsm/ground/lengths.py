@@ -48,7 +48,9 @@ def parse_length(name: str, value: Any) -> Length:
     # Only a mesh tells how long a millimeter is in its own unit. Here none is at hand.
     if unit not in ("", "%"):
         raise UnitError(f"{name} is in {unit}, which needs a mesh with a unit: {value!r}")
-    return Length(number / 100.0 if unit else number, False)
+    if unit:
+        number /= 100.0
+    return Length(number, False)
 
 
 _MANY = re.compile(rf"(?:{NUMBER} *\*? *)?([a-zµ]+)")
@@ -59,13 +61,16 @@ BYTES = re.compile(NUMBER + r" *(?:([kMG])(i?))?B?")
 def parse_bytes(name: str, value: Any) -> float:
     if isinstance(value, Real) and not isinstance(value, bool):
         return float(value)
+    found = None
     # Kilobytes are written with either letter; there is no other meaning of K here.
-    found = BYTES.fullmatch(value.strip().replace("K", "k")) if isinstance(value, str) else None
+    if isinstance(value, str):
+        found = BYTES.fullmatch(value.strip().replace("K", "k"))
     if found is None:
         raise ArgumentError(
             f"{name} must be a number of bytes, such as 20000 or 20kB, not {value!r}"
         )
-    return float(found[1]) * float((1024 if found[3] else 1000) ** " kMG".index(found[2] or " "))
+    thousand = 1024 if found[3] else 1000
+    return float(found[1]) * float(thousand ** " kMG".index(found[2] or " "))
 
 
 class UnitError(OptionError):
@@ -91,7 +96,9 @@ def in_own_unit(
     number, unit = _parts("max_error", value)
     # Refused rather than guessed: both meanings are legal, and they differ by orders of magnitude.
     if unit == "" and number >= DOUBTFUL:
-        here = f", {number * mesh.diagonal:.3g} {own}".rstrip() + " here" if mesh else ""
+        here = ""
+        if mesh:
+            here = f", {number * mesh.diagonal:.3g} {own}".rstrip() + " here"
         raise OptionError(
             f"max_error: {number:g} is {100 * number:.3g} % of the diagonal{here}; for that write {100 * number:.3g}%, "
             f"for a length {number:g}{own or 'mm'}"
@@ -103,10 +110,12 @@ def in_own_unit(
         # The question offers two units that make the size of the mesh plausible or absurd, so that the user sees which
         # is right.
         other = "mm" if asked == 1.0 else "m"
-        long = (
-            float((mesh.positions.max(axis=0) - mesh.positions.min(axis=0)).max()) if mesh else 0.0
-        )
-        which = f"is it {long:.3g} {other} or {long:.3g} {unit} long?" if long else "which is it?"
+        long = 0.0
+        if mesh:
+            long = float((mesh.positions.max(axis=0) - mesh.positions.min(axis=0)).max())
+        which = "which is it?"
+        if long:
+            which = f"is it {long:.3g} {other} or {long:.3g} {unit} long?"
         raise UnitError(
             f"max_error is in {unit}, but the mesh has no unit: {which} Give it, --meta unit={other} or --meta "
             f"unit={unit} (in Python, metadata={{'unit': '{unit}'}}), or give max_error in percent of the diagonal, "
@@ -114,12 +123,9 @@ def in_own_unit(
         )
     size = known_unit(own, "the mesh")
     # Equal units need no arithmetic. Else twelve digits, so that 1 inch in a mesh of inches is exactly 1.
-    return {
-        **options,
-        "max_error": Length(
-            number if asked == size else float(f"{number * asked / size:.12g}"), True
-        ),
-    }
+    if asked != size:
+        number = float(f"{number * asked / size:.12g}")
+    return {**options, "max_error": Length(number, True)}
 
 
 def as_said(options: Mapping[str, Any]) -> dict[str, Any]:
@@ -139,24 +145,32 @@ def known_unit(unit: object, where: str) -> float:
     if isinstance(unit, str) and (size := metres(unit)):
         return size
     word = _MANY.fullmatch(str(unit).strip().lower())
-    advice = suggestion(word[2], IN_METRES) if word else ""
-    raise UnitError(
-        f"{where}: unknown unit {unit!r}{advice}{'' if advice else f'; known are {_SHORT}'}"
-    )
+    advice = ""
+    if word:
+        advice = suggestion(word[2], IN_METRES)
+    if not advice:
+        advice = f"; known are {_SHORT}"
+    raise UnitError(f"{where}: unknown unit {unit!r}{advice}")
 
 
 def asked_unit(options: Mapping[str, Any], metadata: Mapping[str, Any]) -> tuple[str, float]:
     """Return the unit for errors, and how many of it are one of the mesh's: that of `max_error`, or the mesh's own."""
     value, own = options.get("max_error"), unit_of(metadata)
-    unit = "" if value is None else _parts("max_error", value)[1].strip("%")
+    if value is None:
+        return own, 1.0
+    unit = _parts("max_error", value)[1].strip("%")
     size, other = metres(own), metres(unit)
-    return (own, 1.0) if not unit or size is None or other is None else (unit, size / other)
+    if not unit or size is None or other is None:
+        return own, 1.0
+    return unit, size / other
 
 
 def _parts(name: str, value: Any) -> tuple[float, str]:
     if isinstance(value, Real) and not isinstance(value, bool):
         return float(value), ""
-    found = LENGTH.fullmatch(value.strip()) if isinstance(value, str) else None
+    found = None
+    if isinstance(value, str):
+        found = LENGTH.fullmatch(value.strip())
     if found is None:
         raise ArgumentError(
             f"{name} must be a number, or one with a unit like 0.05mm or 0.1%, not {value!r}"
@@ -169,9 +183,12 @@ def metres(unit: str) -> float | None:
     # Unicode has two letters for micro, and keyboards give either.
     # Mu, and the sign for a millionth.
     found = _MANY.fullmatch(unit.strip().lower().replace("μ", "µ"))
-    name = found[2] if found else ""
-    size = IN_METRES.get(name, IN_METRES.get(name.removesuffix("s")))
-    return None if found is None or size is None else float(found[1] or 1.0) * size or None
+    if found is None:
+        return None
+    size = IN_METRES.get(found[2], IN_METRES.get(found[2].removesuffix("s")))
+    if size is None:
+        return None
+    return float(found[1] or 1.0) * size or None
 
 
 def unit_named(size: float) -> str:
@@ -186,7 +203,9 @@ def unit_named(size: float) -> str:
 
 def unit_of(metadata: Mapping[str, Any]) -> str:
     unit = metadata.get("unit")
-    return unit if isinstance(unit, str) else ""
+    if not isinstance(unit, str):
+        return ""
+    return unit
 
 
 def length(value: float, unit: str) -> str:

@@ -28,7 +28,10 @@ def png(picture: npt.NDArray[Any]) -> bytes:
     shades = np.rint(255 * picture.clip(0.0, 1.0)).astype(np.uint8).reshape(height, -1)
     # Filters of PNG help photographs. Flat shading has long equal runs, which zlib finds anyway.
     rows = np.pad(shades, ((0, 0), (1, 0)))  # zero before each row: it is predicted from nothing
-    head = struct.pack(">IIBBBBB", width, height, 8, 2 if picture.ndim == 3 else 0, 0, 0, 0)
+    kind = 0  # of shades
+    if picture.ndim == 3:
+        kind = 2  # of colors
+    head = struct.pack(">IIBBBBB", width, height, 8, kind, 0, 0, 0)
     chunks = ((b"IHDR", head), (b"IDAT", zlib.compress(rows.tobytes(), 9)), (b"IEND", b""))
     return b"\x89PNG\r\n\x1a\n" + b"".join(
         struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
@@ -67,10 +70,9 @@ def with_titles(
         axes.axis("off")
     if bar is not None:
         colors = ListedColormap(colors_of(np.linspace(0.0, 1.0, 256)) / 255.0)
-        scale, ends = (
-            ScalarMappable(Normalize(0.0, bar.top), colors),
-            "max" if bar.largest > bar.top else "neither",
-        )
+        scale, ends = ScalarMappable(Normalize(0.0, bar.top), colors), "neither"
+        if bar.largest > bar.top:
+            ends = "max"
         figure.colorbar(
             scale, ax=places[-1], location="bottom", shrink=0.8, label=bar.label, extend=ends
         )
@@ -114,7 +116,9 @@ def render(
     colors: npt.NDArray[np.float64] | None = None,
 ) -> Image:
     view = DEFAULT_VIEW if view is None else view
-    center, radius = bounds_of(positions, view) if bounds is None else bounds
+    if bounds is None:
+        bounds = bounds_of(positions, view)
+    center, radius = bounds
     fine = size * _SUPERSAMPLING
     placed = (positions - center) @ view.T / radius
     pixels = (placed * (1.0, -1.0, 1.0) + (1.0, 1.0, 0.0)) * (fine / 2, fine / 2, 1.0)
@@ -122,7 +126,8 @@ def render(
     shade = 0.25 + 0.75 * np.abs(face_normals(placed, faces) @ _LIGHT)
     # One face for each pixel and then a look-up of its color: the rasterizer need not know about colors.
     owner = nearest_faces(pixels, faces, fine)
-    table = np.vstack([shade[:, None] * (_BASE if colors is None else colors), np.ones(3)])
+    colors = _BASE if colors is None else colors
+    table = np.vstack([shade[:, None] * colors, np.ones(3)])
     image = table[owner]
     # Four samples for each pixel smooth the edges, without a filter.
     blocks = image.reshape(size, _SUPERSAMPLING, size, _SUPERSAMPLING, 3)

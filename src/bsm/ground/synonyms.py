@@ -35,7 +35,10 @@ def advice_on_keyword(word: str, keywords: Collection[str]) -> str:
         keyword = option.removeprefix("--").replace("-", "_")
         if keyword not in keywords:
             continue
+        if not value:
+            return f"{keyword}=True"
         is_number = value.removeprefix("-").replace(".", "").isdigit()
-        shown = value if is_number else repr(value)
-        return f"{keyword}={shown if value else True}"
+        if not is_number:
+            value = repr(value)
+        return f"{keyword}={value}"
     return ""
