@@ -107,10 +107,14 @@ def _require_reach(
     reach = float(np.abs(ends - np.array(lattice.origin)).max())
     farthest = reach / lattice.cell
     exact = short and not any(coordinate % lattice.cell for coordinate in lattice.origin)
-    most = _FARTHEST if exact else MOST_GRID // 2
+    most = MOST_GRID // 2
+    if exact:
+        most = _FARTHEST
     if farthest < most:
         return
-    extent = reach if has_origin else np.ptp(ends, axis=0).max()
+    extent = np.ptp(ends, axis=0).max()
+    if has_origin:
+        extent = reach
     least = math.ceil(math.log2(2 * extent / _FARTHEST))
     better = 2.0 ** max(math.floor(math.log2(lattice.cell)), least)
     message = f"the mesh is {farthest:.3g} cells of {lattice.cell:g} from the origin of the grid, too far to tell "
@@ -279,7 +283,9 @@ def cut(raw: Raw, lattice: Lattice, slides: bool, most: int) -> Plan:
     bits = max(1, int((high - low).max()).bit_length()) + above
     depth = min(DEPTH + above, bits)
     kinds = {what: kind for what, kind in raw.kinds.items() if what != "faces"}
-    columns = 7 if raw.textures else 3
+    columns = 3
+    if raw.textures:
+        columns = 7
     kinds |= {"codes": ("<i8", 1), "outside": ("<i8", 5), "cut": ("<u4", columns)}
     corner = tuple(low.tolist())
     plan = Plan(

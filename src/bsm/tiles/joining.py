@@ -146,7 +146,9 @@ def write_tileset(
         if os.path.islink(contents):
             raise OptionError(f"{contents} is a symbolic link; remove it")
     needs_normals = "normal" not in tiles.kinds
-    codings = {"NORMAL": _NORMALS} if needs_normals else {}
+    codings = {}
+    if needs_normals:
+        codings["NORMAL"] = _NORMALS
     options = {"grid_cell": tiles.lattice.cell, "effort": "quick", "attributes": codings}
     with console.progress("writing") as progress:
         for number, (name, (shard, tile)) in enumerate(tiles_by_name.items(), 1):

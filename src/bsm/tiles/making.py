@@ -1,6 +1,5 @@
 """One tile: of the finest level by its triangles, of any other by its eighths, simplified inside of their border."""
 
-import math
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, TypeAlias
@@ -66,7 +65,9 @@ def tile_one(job: TileJob, console: Console) -> Facts:
         written_mesh = textured(mesh, skin, atlas, job.images)
         _, image = images_in(written_mesh.metadata)[0]
         psnr = compare_image(name, atlas_file.read_bytes(), image).psnr_db
-        counts["psnr_db"] = finite(math.inf if psnr is None else psnr)
+        counts["psnr_db"] = None
+        if psnr is not None:
+            counts["psnr_db"] = finite(psnr)
         # A viewer chooses the level by this number. Where a texture is halved with each level, its texels are the
         # larger error.
         if not is_leaf:
@@ -220,7 +221,9 @@ def _coarser(plan: Plan, name: str, folder: Path, most: int) -> tuple[TriangleMe
     faces, skin = faces[~empty], skin[~empty]
     locked = _held(plan, name, folder, places)
     target = max(len(faces) // _KEPT, min(COARSEST, most) // 4)
-    wedges = wedges_of(skin, faces) if plan.textures else None
+    wedges = None
+    if plan.textures:
+        wedges = wedges_of(skin, faces)
     new, smaller, remaining = simplified(places, faces, locked, target, wedges)
     if wedges is None:
         skin = skin[: len(smaller)]
@@ -254,4 +257,6 @@ def simplified(
     if len(smaller):
         return new, smaller, remaining[has_area]
     # Simplifying may end with nothing, where all vertices fall together. The input is then the better coarse tile.
-    return places, faces, faces if wedges is None else wedges
+    if wedges is None:
+        wedges = faces
+    return places, faces, wedges

@@ -85,11 +85,11 @@ def read_manifest(path: str, limits: Limits) -> tuple[Facts, Lattice, Root, Kind
             )
         # Refused here: otherwise each tile is refused on its own, with an error about a stream.
         if (major := facts.get("stream", 0)) != MAJOR:  # version 0 had no such entry
-            older = "encode the source again, or decode it with the release that wrote it"
+            advice = "a later release reads it"
+            if major < MAJOR:
+                advice = "encode the source again, or decode it with the release that wrote it"
             message = f"{name}: these tiles are written by version {major} of the format, and this reads {MAJOR}: "
-            raise UnsupportedError(
-                message + (older if major < MAJOR else "a later release reads it")
-            )
+            raise UnsupportedError(message + advice)
         if facts.get("complete") is False:
             resume = shlex.join(("bsm", "tile", str(facts["source"]), "-o", path, "--resume"))
             message = f"these tiles are unfinished; with its other options, {resume} goes on"

@@ -164,7 +164,9 @@ def read_big(name: str, file_format: str | None, folder: Path, console: Console)
             raise MeshError(
                 f"{count} of {vertices} vertices have a {what}: give all of them one, or none"
             )
-    parent = None if is_url(name) or name == "-" else Path(name).parent
+    parent = None
+    if not is_url(name) and name != "-":
+        parent = Path(name).parent
     textures = _textures(raw, Beside(parent, DEFAULT_LIMITS))
     return replace(raw, low=tuple(low.tolist()), high=tuple(high.tolist()), textures=textures)
 
@@ -211,7 +213,9 @@ def _checked(what: str, piece: Array, before: int) -> Array:
             f"vertex {row} has a {_WORDS[what]} that is not finite; remove or repair it"
         )
     if what == "positions":
-        return piece if floats and piece.dtype.itemsize == 4 else piece.astype("<f8")
+        if floats and piece.dtype.itemsize == 4:
+            return piece
+        return piece.astype("<f8")
     if what in ("normal", "texcoord"):
         return piece.astype("<f4")
     if what == "color":
@@ -416,7 +420,8 @@ def _read_whole(kind: str | None, source_input: Input, raw: Raw) -> Pieces:
     rows = np.zeros_like(mesh.faces)
     texcoord = attributes.pop("texcoord", None)
     if texcoord is not None:
-        rows = 1 + (mesh.faces if texcoord.indices is None else texcoord.indices)
+        indices = mesh.faces if texcoord.indices is None else texcoord.indices
+        rows = 1 + indices
         # First, that of corners without.
         yield "texcoord", np.pad(texcoord.values[:, :2], ((1, 0), (0, 0)))
     numbers = np.zeros(len(rows), np.int32)

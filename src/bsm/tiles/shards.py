@@ -298,11 +298,10 @@ class Tiles:
         for name in sorted(tiles_by_name, key=lambda name: (len(name), name)):
             tile = tiles_by_name[name][1]
             leaf = name not in inner  # others may have an error of 0, too, as where all is flat
-            fits = (
-                tile.error <= error and (leaf or error > 0.0)
-                if level is None
-                else tile.level == level or leaf
-            )
+            if level is None:
+                fits = tile.error <= error and (leaf or error > 0.0)
+            else:
+                fits = tile.level == level or leaf
             if name[:-1] in names_taken:
                 names_taken.add(name)
             elif fits:
@@ -393,7 +392,10 @@ class Tiles:
             for tile in tiles:
                 try:
                     # One fault does not end the check, so that a user sees at once which tiles to fetch or make again.
-                    self.decoded(shard, tile) if decode else self.data(shard, tile)
+                    if decode:
+                        self.decoded(shard, tile)
+                    else:
+                        self.data(shard, tile)
                 except (BsmError, OSError) as error:
                     yield error
 

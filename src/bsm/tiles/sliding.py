@@ -34,7 +34,9 @@ def slid(
     turns, count = sums(
         np.column_stack([following - np.roll(faces, 1, axis=1).ravel(), np.ones(len(corners))])
     ).T
-    free = turns == 0.0 if fixed is None else (turns == 0.0) & ~fixed[first]
+    free = turns == 0.0
+    if fixed is not None:
+        free &= ~fixed[first]
     for _ in range(_SWEEPS):
         _, areas, normals = face_geometry(moved, faces)
         *across, together = sums(

@@ -85,11 +85,11 @@ def _held_by(path: Path, message: str) -> OSError:
 def is_own(work: Path) -> bool:
     """Return whether a run has left its note in a folder; a run that was killed at once has left an empty one."""
     with suppress(OSError):
-        note = (work / NOTE).read_text(errors="replace") if (work / NOTE).is_file() else None
+        if not (work / NOTE).is_file():
+            return False
+        note = (work / NOTE).read_text(errors="replace")
         # A note with nothing in it comes from a run that was killed between opening and writing it.
-        return note is not None and (
-            note.startswith(_BEGIN) or (not note and {*os.listdir(work)} <= {LOCK, NOTE})
-        )
+        return note.startswith(_BEGIN) or (not note and {*os.listdir(work)} <= {LOCK, NOTE})
     return False
 
 
@@ -108,11 +108,13 @@ def refuse_others(work: Path) -> None:
 
 def remove_made(work: Path) -> None:
     """Remove the files of a run from a folder, and the folder if it is then empty."""
+    if not work.is_dir():
+        return
     # The note goes last: without it, the remaining files would look like those of another program.
-    for name in sorted(os.listdir(work), key=NOTE.__eq__) if work.is_dir() else ():
+    for name in sorted(os.listdir(work), key=NOTE.__eq__):
         if name != LOCK and _MADE.fullmatch(name):
             (work / name).unlink(missing_ok=True)
-    if work.is_dir() and not {*os.listdir(work)} - {LOCK}:
+    if not {*os.listdir(work)} - {LOCK}:
         with suppress(OSError):
             (work / LOCK).unlink(missing_ok=True)
             work.rmdir()
