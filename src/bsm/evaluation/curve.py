@@ -112,14 +112,18 @@ class Spectral:
         # A target finds its own step, so the step of the options would mislead.
         if options.target is not None:
             return {**given, "target": asdict(options.target)}
-        return given if options.paper.bits else {"step": options.first_step, **given}
+        if options.paper.bits:
+            return given
+        return {"step": options.first_step, **given}
 
     def encode(self, mesh: TriangleMesh) -> tuple[bytes, Align]:
         """Return a whole file of a mesh all of whose vertices are in faces, and how to find their order again."""
         encoder = Encoder(mesh, self.options)
         data = encoder.encode()
         # A mesh that has kept its order needs no map.
-        order = slice(None) if self.options.keep_order else encoder.vertex_index
+        if self.options.keep_order:
+            return data, lambda decoded: decoded.positions
+        order = encoder.vertex_index
         return data, lambda decoded: decoded.positions[order]
 
     def decode(self, data: bytes) -> TriangleMesh:
@@ -128,7 +132,9 @@ class Spectral:
     def parts(self, data: bytes) -> dict[str, Any]:
         """Return the bytes of each of `PARTS`, and `bpv_paper`, as far as the format tells."""
         info = inspect_stream(iter([data]))
-        paper = info.bpv_paper if self.options.paper.bits else None
+        paper = None
+        if self.options.paper.bits:
+            paper = info.bpv_paper
         return {**{part: info.sizes[part] for part in PARTS}, "bpv_paper": paper}
 
 
@@ -187,7 +193,12 @@ PAPER_LINES: tuple[tuple[str, str, dict[str, Any]], ...] = (
     ("oi-r2-cold", "OI, R², no warm start", COLD_STARTS | {"power": 2}),
 )
 DRACO = Curve(
-    "draco", "Draco", tuple(Draco(bits, (7, 10) if bits < 9 else (10,)) for bits in range(6, 15))
+    "draco",
+    "Draco",
+    (
+        *(Draco(bits, (7, 10)) for bits in range(6, 9)),
+        *(Draco(bits, (10,)) for bits in range(9, 15)),
+    ),
 )
 """Draco at 6 to 14 bits per coordinate; level 10, below nine bits level 7 where it is smaller."""
 OUR_TARGETS = {
@@ -266,11 +277,14 @@ def measure(codec: Codec, mesh: TriangleMesh, reference: Reference, repeats: int
     errors, parts = asdict(reference.compare(align(decoded))), codec.parts(data)
     bpv_paper, geometry = parts.pop("bpv_paper"), parts["coefficients"]
     vertices = len(mesh.positions)
+    bpv_geometry = None
+    if geometry is not None:
+        bpv_geometry = 8 * geometry / vertices
     return {
         "settings": codec.settings,
         "bytes": {**parts, "total": len(data)},
         "bpv_total": 8 * len(data) / vertices,
-        "bpv_geometry": None if geometry is None else 8 * geometry / vertices,
+        "bpv_geometry": bpv_geometry,
         "bpv_paper": bpv_paper,
         **{name: finite(errors[name]) for name in MEASURED},
         "encode_seconds": encode_seconds,
@@ -369,10 +383,13 @@ def read_points(path: str, meshes: Mapping[str, Result]) -> list[Result]:
     measures = [name for name in MEASURES if name in named]
     if not {"label", "bpv"} <= {*named} or not measures:
         raise FormatError(f"{path}: {_fault_of_columns(text)}")
+    usual_mesh = ""
+    if len(meshes) == 1:
+        (usual_mesh,) = meshes
     found: dict[tuple[str, str], Result] = {}
     for row in rows:
         where = f"{path}: line {rows.line_num}"
-        mesh = row.get("mesh") or (next(iter(meshes)) if len(meshes) == 1 else "")
+        mesh = row.get("mesh") or usual_mesh
         if mesh not in meshes:
             raise FormatError(
                 f"{where}: the column mesh must be one of {', '.join(meshes)}, not {mesh!r}"
@@ -512,7 +529,9 @@ def scaled(value: float, measure: str) -> float | None:
     """A distortion on the scale that curves are interpolated over: theta becomes 10 log10(theta)."""
     if measure != "theta_deg":
         return value
-    return 10.0 * float(np.log10(value)) if value > 0.0 else None
+    if not value > 0.0:
+        return None
+    return 10.0 * float(np.log10(value))
 
 
 def bd_rate(reference: RateCurve, tested: RateCurve) -> float | None:
@@ -534,7 +553,9 @@ def bd_rate(reference: RateCurve, tested: RateCurve) -> float | None:
 def rate_ratio(reference: RateCurve, tested: RateCurve, distortion: float) -> float | None:
     """Bits of `tested` over bits of `reference` at one distortion, None where one of them does not reach it."""
     first, second = reference.rate(distortion), tested.rate(distortion)
-    return None if first is None or second is None else second / first
+    if first is None or second is None:
+        return None
+    return second / first
 
 
 def compare_curves(reference: Result, tested: Result) -> Result:
@@ -700,12 +721,10 @@ def draw_rates(
 
     labels = {line.label for lines in panels.values() for line in lines.values()}
     abreast = across + (max(map(len, labels)) < 40)
-    return Picture(
-        name,
-        draw,
-        3.2 * across if across > 1 else 4.2,
-        2.7 * down + 0.13 * (len(labels) // abreast + 2),
-    )
+    width = 4.2
+    if across > 1:
+        width = 3.2 * across
+    return Picture(name, draw, width, 2.7 * down + 0.13 * (len(labels) // abreast + 2))
 
 
 def frame_errors(frames: Sequence[Mapping[str, float]], title: str) -> bytes:
@@ -747,8 +766,12 @@ def draw_all(results: Iterable[Result], named: Iterable[str] = ()) -> Iterator[P
             yield draw_rates({title_of(group[0]): lines}, *axes, f"{mesh}.paper", "linear")
         if rest:  # SVD in the paper's mode represents the paper among whole files.
             shown[mesh] = [*rest, *(r for r in paper if r["codec"] in chosen)]
-    stem = next(iter(shown)) if len(shown) == 1 else "meshes"
-    for measure, label in MEASURES.items() if shown else ():
+    if not shown:
+        return
+    stem = "meshes"
+    if len(shown) == 1:
+        (stem,) = shown
+    for measure, label in MEASURES.items():
         every = {title_of(group[0]): lines_of(group, measure) for group in shown.values()}
         if panels := {title: lines for title, lines in every.items() if lines}:
             yield draw_rates(
@@ -784,9 +807,9 @@ def lines_of(results: Sequence[Result], measure: str) -> dict[str, Line]:
     ):
         points = points_of(result["points"], measure)
         targets = [p["settings"]["target"]["value"] for p in points if "target" in p["settings"]]
-        asked = (
-            f", asked for {targets[0]:.4g} to {targets[-1]:.4g}{UNITS[measure]}" if targets else ""
-        )
+        asked = ""
+        if targets:
+            asked = f", asked for {targets[0]:.4g} to {targets[-1]:.4g}{UNITS[measure]}"
         if points:
             pairs = [(point["bpv_total"], point[measure]) for point in points]
             lines[result["codec"]] = Line(result["label"] + asked, pairs)
@@ -809,7 +832,9 @@ def seconds_of(points: Sequence[Result]) -> str:
         {f"{point['encode_seconds']:.2g}" for point in points if point.get("encode_seconds")},
         key=float,
     )
-    return f" ({' to '.join(times[:: max(1, len(times) - 1)])} s)" if times else ""
+    if not times:
+        return ""
+    return f" ({' to '.join(times[:: max(1, len(times) - 1)])} s)"
 
 
 def title_of(result: Result) -> str:
