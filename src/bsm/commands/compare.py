@@ -101,22 +101,7 @@ def _compare_trees(args: argparse.Namespace, console: Console) -> int:
         path = str(original_path)
         facts: Facts = {"input": path}
         try:
-            facts["output"] = counterpart = _same_name(path, args)
-            original = _load_used(path, args, console)
-            decoded = _load_used(counterpart, args, console)
-            facts |= {"input_bytes": size_of(path), "output_bytes": size_of(counterpart)}
-            if args.look:
-                facts["look"] = LookMetric(original).compare(decoded).distance
-            images = compare_images(original.metadata, decoded.metadata)
-            if images:
-                facts["images"] = [image.facts() for image in images]
-            facts |= _compared(original, decoded, pair(original, decoded), args, console)
-            unit = unit_of(original.metadata) or unit_of(decoded.metadata)
-            if unit:
-                facts["unit"] = unit
-            sentence_of_pair = sentence(facts, unit)
-            if args.look:
-                sentence_of_pair = f"look {facts['look']:.3g}; {sentence_of_pair}"
+            sentence_of_pair = _compare_files(facts, args, console)
         # One file that cannot be compared must not end the run: the others are compared, and the exit code tells of the
         # failure.
         except (BsmError, OSError) as error:
@@ -138,6 +123,28 @@ def _compare_trees(args: argparse.Namespace, console: Console) -> int:
         print(line)
     # The code of the first failure, as in all commands that take many inputs.
     return next((int(facts["exit"]) for facts in rows if "error" in facts), 0)
+
+
+def _compare_files(facts: Facts, args: argparse.Namespace, console: Console) -> str:
+    """Compare an input with the file of its name; add to its facts, and return them as a sentence."""
+    path = facts["input"]
+    facts["output"] = counterpart = _same_name(path, args)
+    original = _load_used(path, args, console)
+    decoded = _load_used(counterpart, args, console)
+    facts |= {"input_bytes": size_of(path), "output_bytes": size_of(counterpart)}
+    if args.look:
+        facts["look"] = LookMetric(original).compare(decoded).distance
+    images = compare_images(original.metadata, decoded.metadata)
+    if images:
+        facts["images"] = [image.facts() for image in images]
+    facts |= _compared(original, decoded, pair(original, decoded), args, console)
+    unit = unit_of(original.metadata) or unit_of(decoded.metadata)
+    if unit:
+        facts["unit"] = unit
+    text = sentence(facts, unit)
+    if args.look:
+        text = f"look {facts['look']:.3g}; {text}"
+    return text
 
 
 def _report_of(results: list[Facts], args: argparse.Namespace) -> bytes:

@@ -91,35 +91,14 @@ def run(args: argparse.Namespace, console: Console) -> int:
     if many.side_by_side and len(jobs) > 1:
         threads = 1
     threads = options.pop("threads", threads)
-    metadata = {}
-    if args.up:
-        metadata["up"] = args.up
-    for text in args.meta:
-        name, sign, value = text.partition("=")
-        if not name or not sign:
-            raise OptionError(f"--meta takes NAME=TEXT, not {name!r}")
-        if name.lower() in _MEANT:
-            raise OptionError(
-                f"--meta {name}: programs look for it as {_MEANT[name.lower()]}={value}"
-            )
-        metadata[name] = value
     more = {
         "output": "",
-        "metadata": metadata,
+        "metadata": _metadata_of(args),
         "options": options,
         "threads": threads,
         "members": members,
     }
-    # Images in files need a folder that they can be written to.
-    if args.images == "link" and any(job.output == "-" or is_url(job.output) for job in jobs):
-        raise OptionError(
-            "--images link writes files beside streams; it takes neither a pipe nor a URL"
-        )
-    if args.images not in (None, "keep", "none", "link"):
-        ImageRule.parse(args.images)
-        # Decoders of images are a usual way into a process. Bytes of strangers never reach Pillow.
-        if args.untrusted:
-            raise OptionError("--images lets Pillow read images; leave it out with --untrusted")
+    _check_images(args, jobs)
     more["format"] = args.format
     if piped:
         more["format"] = "npy"
@@ -135,8 +114,39 @@ def run(args: argparse.Namespace, console: Console) -> int:
     return run_jobs(many, job, console, encode_one, jobs)
 
 
+def _metadata_of(args: argparse.Namespace) -> dict[str, str]:
+    """Return the metadata that a command line gives."""
+    metadata = {}
+    if args.up:
+        metadata["up"] = args.up
+    for text in args.meta:
+        name, sign, value = text.partition("=")
+        if not name or not sign:
+            raise OptionError(f"--meta takes NAME=TEXT, not {name!r}")
+        if name.lower() in _MEANT:
+            raise OptionError(
+                f"--meta {name}: programs look for it as {_MEANT[name.lower()]}={value}"
+            )
+        metadata[name] = value
+    return metadata
+
+
+def _check_images(args: argparse.Namespace, jobs: Sequence[Job]) -> None:
+    """Raise an error if images cannot be written as the command line says."""
+    # Images in files need a folder that they can be written to.
+    if args.images == "link" and any(job.output == "-" or is_url(job.output) for job in jobs):
+        raise OptionError(
+            "--images link writes files beside streams; it takes neither a pipe nor a URL"
+        )
+    if args.images not in (None, "keep", "none", "link"):
+        ImageRule.parse(args.images)
+        # Decoders of images are a usual way into a process. Bytes of strangers never reach Pillow.
+        if args.untrusted:
+            raise OptionError("--images lets Pillow read images; leave it out with --untrusted")
+
+
 def _has_other_files(folders: Sequence[str]) -> bool:
-    """Return whether folders have files that are no meshes."""
+    """Return whether folders have files other than meshes."""
     for folder in folders:
         for path in Path(folder).rglob("*"):
             if path.suffix.lower() not in MESH_SUFFIXES and path.is_file():

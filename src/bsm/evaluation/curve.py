@@ -766,8 +766,12 @@ def draw_all(results: Iterable[Result], named: Iterable[str] = ()) -> Iterator[P
             yield draw_rates({title_of(group[0]): lines}, *axes, f"{mesh}.paper", "linear")
         if rest:  # SVD in the paper's mode represents the paper among whole files.
             shown[mesh] = [*rest, *(r for r in paper if r["codec"] in chosen)]
-    if not shown:
-        return
+    if shown:
+        yield from _draw_whole_files(shown)
+
+
+def _draw_whole_files(shown: Mapping[str, Sequence[Result]]) -> Iterator[Picture]:
+    """A picture of each measure, with all meshes beside each other."""
     stem = "meshes"
     if len(shown) == 1:
         (stem,) = shown

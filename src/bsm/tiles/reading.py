@@ -228,6 +228,10 @@ def _checked(what: str, piece: Array, before: int) -> Array:
                 f"colors must be bytes, words, or floats from 0 to 1, not such {piece.dtype}"
             )
         return piece
+    return _checked_faces(piece)
+
+
+def _checked_faces(piece: Array) -> Array:
     if piece.dtype.kind not in "iu":
         raise MeshError(f"faces must be integers, not {piece.dtype}")
     if piece.min() < 0:

@@ -502,17 +502,26 @@ def _work(pipe: Connection, paths: Sequence[str], folder: str, preset: str) -> N
         else:
             scene = encoded_scene(name, first.name, Limits.service())
             content = scene or made(name, first.size, first.source, preset, report)
-        # Temporary folders may lie behind a link, as /tmp does on macOS. Names are compared where they lead.
-        used = {os.path.realpath(path) for each in given for path in each.used}
-        said = {"missing": [name for each in given for name in each.missing]}
-        for what, is_used in (("used", True), ("unused", False)):
-            said[what] = [
-                PurePath(path).name for path in paths if (os.path.realpath(path) in used) == is_used
-            ]
-        pipe.send(replace(content, facts={**content.facts, **said}))
+        pipe.send(replace(content, facts={**content.facts, **_names_of_files(given, paths)}))
     except (BsmError, MemoryError) as error:
         # The temporary folder means nothing to the user, who sent a file by its name.
         pipe.send({"error": worded(error).replace(f"{folder}/", "")})
+
+
+def _names_of_files(given: Sequence[Given], paths: Sequence[str]) -> dict[str, list[str]]:
+    """Return the names of files that are missing, and of those sent that were used or not."""
+    names: dict[str, list[str]] = {"missing": [], "used": [], "unused": []}
+    # Temporary folders may lie behind a link, as /tmp does on macOS. Names are compared where they lead.
+    used = set()
+    for each in given:
+        names["missing"] += each.missing
+        used |= set(map(os.path.realpath, each.used))
+    for path in paths:
+        what = "unused"
+        if os.path.realpath(path) in used:
+            what = "used"
+        names[what].append(PurePath(path).name)
+    return names
 
 
 def _put(folder: str, name: str, data: bytes) -> str:
