@@ -32,7 +32,9 @@ static const Field FIELDS[] = {
     {.key = TURN, .type = FLOATS_FIELD, .low = -1, .high = 1, .least = 3, .most = 3},
     {.key = BASE, .type = INTS_FIELD, .low = 1, .high = INT32_MAX, .most = 4},
     {.key = SWIFT, .type = METHOD_FIELD, .high = 2},
+#if BSMDEC_LIGHT == 0 /* others refuse such streams: pages send them to the whole decoder */
     {.key = REPEATS, .type = METHOD_FIELD, .high = 1},
+#endif
 };
 INSIDE const Fields HEADER_FIELDS = {FIELDS, sizeof FIELDS / sizeof *FIELDS};
 

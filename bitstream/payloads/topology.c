@@ -191,12 +191,11 @@ static bool code_faces_of(Coding *coding, const Header *header, const Surface *s
 #endif
     int64_t count = surplus > 0 ? join_fans(coding, scratch, usual, known) : fans;
     if (failed(context)) return false;
-    bool sound = count == regular;
-    release_to(scratch, mark);
-    if (sound && has_edges(header)
-        && !code_on_edges(coding, rare, surface, usual, regular, scratch, corners, &corners))
-        return false;
-    if (!sound || code_degenerate(&coding->coder, corners, count) != header->vertices)
+    if (has_edges(header) && count == regular) {
+        release_to(scratch, mark); /* what the conquest took */
+        if (!code_on_edges(coding, rare, surface, usual, regular, scratch, corners, &corners)) return false;
+    }
+    if (count != regular || code_degenerate(&coding->coder, corners, count) != header->vertices)
         return nonsense(coding, "a connectivity payload does not make its vertices");
     return finish_coding(coding);
 }

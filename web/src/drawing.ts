@@ -4,7 +4,7 @@ import type { Event, Loose, EventOf } from "./events";
 import { composed, spread, type DrawnAttribute, type DrawnFaces, type Piece } from "./drawn";
 import { checkLimit, DEFAULT_LIMITS, type Limits } from "./limits";
 import type { Bounds, Grown, Memory, Move } from "./memory";
-import { drawnFaces, numbersOf } from "./parting";
+import { drawnFaces, drawnFrame } from "./parting";
 
 export type { DrawnAttribute, Piece };
 
@@ -34,7 +34,6 @@ type Show = (picture: Picture, moved?: Transferable[]) => void;
 const PAUSE = 30; // milliseconds, at least, before each picture of what grows, but the first one of several blocks
 const LIGHT_PAUSE = 100; // before the first one of a light grid, whose decoder is as fast as a picture
 const SHARE = 4; // times what such a picture takes
-const MOST_NORMAL = 32767;
 const USUAL = 0.766; // the cosine of the usual angle, as in library/wasm/draw.c
 
 export class Drawing {
@@ -168,18 +167,13 @@ export class Drawing {
             this.take(points);
             this.finish();
         }
-        const { vertices, attributes: drawn } = this.shape!;
-        const all = this.placesOf(points);
-        const [positions, normals] = [all.positions, all.normals].map((each) => spread(each, 3, this.rows));
-        const small = new Int16Array(normals.length);
-        for (let i = 0; i < small.length; i++) small[i] = Math.round(normals[i] * MOST_NORMAL);
-        const attributes = moved.flatMap((attribute) => {
-            const same = drawn.find(({ source }) => source === attribute.name);
-            return same ? [{ ...same, values: numbersOf(attribute, vertices) }] : [];
-        });
-        const buffers = [positions, small, ...attributes.map(({ values }) => values)].map(({ buffer }) => buffer);
-        const bounds = this.memory.bounds(positions);
-        this.show({ type: "frame", index, positions, normals: small, attributes, ...bounds }, buffers);
+        const frame = drawnFrame(this.shape!, this.placesOf(points), moved, this.rows);
+        const arrays = [frame.positions, frame.normals, ...frame.attributes.map(({ values }) => values)];
+        const bounds = this.memory.bounds(frame.positions);
+        this.show(
+            { type: "frame", index, ...frame, ...bounds },
+            arrays.map(({ buffer }) => buffer),
+        );
     }
 
     /** The mesh is whole: part its vertices where its attributes do, and sort its faces by parts and materials. */

@@ -218,7 +218,7 @@ def unsplit(original: TriangleMesh, other: TriangleMesh) -> TriangleMesh | None:
 
 
 def _unsplit(original: TriangleMesh, other: TriangleMesh, faces: Faces) -> TriangleMesh | None:
-    """The same where these faces are the decoded ones."""
+    """Return the other mesh unsplit, if these faces are the decoded ones."""
     some = np.zeros(len(original.positions), np.int64)
     some[faces] = other.faces
     whole = np.full(len(other.positions), -1, np.int64)
