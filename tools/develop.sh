@@ -5,5 +5,11 @@
 # compiles everything again.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-.venv/bin/pip install -q cmake ninja nanobind scikit-build-core
-.venv/bin/pip install -q --no-build-isolation -e '.[eval,formats,paper,test]'
+installed=.venv/installed  # when all that pyproject.toml asks for was installed
+if [ pyproject.toml -nt "$installed" ]; then
+    .venv/bin/pip install -q cmake ninja nanobind scikit-build-core
+    .venv/bin/pip install -q --no-build-isolation -e '.[eval,formats,paper,test]'
+    touch "$installed"
+else
+    .venv/bin/pip install -q --no-deps --no-build-isolation -e .
+fi
