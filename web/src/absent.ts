@@ -3,4 +3,4 @@ export function drawnFaces(): never {
     throw new TypeError("this build draws no attributes");
 }
 
-export const drawnFrame = drawnFaces;
+export const movedAttributes = drawnFaces;

@@ -4,7 +4,7 @@ import type { Event, Loose, EventOf } from "./events";
 import { composed, spread, type DrawnAttribute, type DrawnFaces, type Piece } from "./drawn";
 import { checkLimit, DEFAULT_LIMITS, type Limits } from "./limits";
 import type { Bounds, Grown, Memory, Move } from "./memory";
-import { drawnFaces, drawnFrame } from "./parting";
+import { drawnFaces, movedAttributes } from "./parting";
 
 export type { DrawnAttribute, Piece };
 
@@ -31,6 +31,7 @@ export type PictureOf<Type> = Extract<Picture, { type: Type }>;
 
 type Show = (picture: Picture, moved?: Transferable[]) => void;
 
+const MOST_NORMAL = 32767;
 const PAUSE = 30; // milliseconds, at least, before each picture of what grows, but the first one of several blocks
 const LIGHT_PAUSE = 100; // before the first one of a light grid, whose decoder is as fast as a picture
 const SHARE = 4; // times what such a picture takes
@@ -167,13 +168,14 @@ export class Drawing {
             this.take(points);
             this.finish();
         }
-        const frame = drawnFrame(this.shape!, this.placesOf(points), moved, this.rows);
-        const arrays = [frame.positions, frame.normals, ...frame.attributes.map(({ values }) => values)];
-        const bounds = this.memory.bounds(frame.positions);
-        this.show(
-            { type: "frame", index, ...frame, ...bounds },
-            arrays.map(({ buffer }) => buffer),
-        );
+        const all = this.placesOf(points);
+        const [positions, exact] = [all.positions, all.normals].map((each) => spread(each, 3, this.rows));
+        const normals = new Int16Array(exact.length);
+        for (let i = 0; i < normals.length; i++) normals[i] = Math.round(exact[i] * MOST_NORMAL);
+        const attributes = moved.length > 0 ? movedAttributes(this.shape!, moved) : [];
+        const buffers = [positions, normals, ...attributes.map(({ values }) => values)].map(({ buffer }) => buffer);
+        const bounds = this.memory.bounds(positions);
+        this.show({ type: "frame", index, positions, normals, attributes, ...bounds }, buffers);
     }
 
     /** The mesh is whole: part its vertices where its attributes do, and sort its faces by parts and materials. */

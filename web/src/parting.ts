@@ -4,27 +4,18 @@ import { composed, cornersOf, spread, type DrawnAttribute, type DrawnFaces, type
 
 /** Attributes of faces that say what belongs together, and are not drawn. */
 const LABELS = [["part", "object"], ["material"]]; // by the first of the names that there is
-const MOST_NORMAL = 32767; // what normals of frames are multiplied by
 const LINEAR = "COLOR_0"; // what streams in glTF call colors: others are sRGB
 const BASES = { texcoord: "uv", color: "color", normal: "normal" } as const;
 
-/** A frame as it is drawn: vertices in `rows`, and the attributes of its mesh that `moved`. */
-export function drawnFrame(
+/** The attributes of a drawn mesh that moved, as they are in a frame. */
+export function movedAttributes(
     mesh: { vertices?: Int32Array; attributes: DrawnAttribute[] },
-    places: { positions: Float32Array; normals: Float32Array },
     moved: Attribute[],
-    rows?: Int32Array,
-): { positions: Float32Array; normals: Int16Array; attributes: DrawnAttribute[] } {
-    const normals = spread(places.normals, 3, rows);
-    const attributes = moved.flatMap((attribute) => {
+): DrawnAttribute[] {
+    return moved.flatMap((attribute) => {
         const same = mesh.attributes.find(({ source }) => source === attribute.name);
         return same ? [{ ...same, values: numbersOf(attribute, mesh.vertices) }] : [];
     });
-    return {
-        positions: spread(places.positions, 3, rows),
-        normals: Int16Array.from(normals, (normal) => Math.round(normal * MOST_NORMAL)),
-        attributes,
-    };
 }
 
 /**

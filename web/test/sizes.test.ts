@@ -11,10 +11,10 @@ import { VIEWER, WEB } from "./shared";
  * itself.
  */
 const LOADS: Record<string, [most: number, files: string[]]> = {
-    "light grids": [20650, ["small-worker.js", "quick.wasm"]],
-    "light grids of parts": [23950, ["small-worker.js", "parts.wasm"]],
-    grids: [55750, ["small-worker.js", "grid.wasm"]],
-    blocks: [71850, ["small-worker.js", "blocks.wasm"]],
+    "light grids": [20700, ["small-worker.js", "quick.wasm"]],
+    "light grids of parts": [24000, ["small-worker.js", "parts.wasm"]],
+    grids: [55800, ["small-worker.js", "grid.wasm"]],
+    blocks: [71900, ["small-worker.js", "blocks.wasm"]],
     "static meshes": [90000, ["small-worker.js", "small.wasm"]],
     sequences: [81200, ["small-worker.js", "moving.wasm"]],
     everything: [125550, ["worker.js", "kernels.wasm"]],
